@@ -1,0 +1,272 @@
+//! What happens on the way, and who is different: timed actions and exceptions among the drivers, in the one
+//! grammar that the command, the link, JSON and the page share.
+//!
+//! ```text
+//! exception   WHO:PARAMETER=VALUE[,PARAMETER=VALUE …]     12:sensitivity=2     10%:sensitivity=2
+//! action      at=SECONDS:WHO:EFFECT[,EFFECT …]            at=30:all:reaction-time=0.75
+//! EFFECT      PARAMETER=VALUE | brake=SECONDS | nudge=METRES
+//! WHO         all | NUMBER | FIRST-LAST | SHARE%          (a share of the vehicles, drawn by the seed)
+//! ```
+
+use crate::error::Invalid;
+use crate::parameters::{PARAMETERS, Parameter, quoted};
+use std::fmt;
+use std::str::FromStr;
+
+/// The vehicles that an action or an exception speaks of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Who {
+    /// Every vehicle.
+    All,
+    /// One vehicle, by its number from 1.
+    Vehicle(usize),
+    /// Vehicles from the first to the last number, both included.
+    Range(usize, usize),
+    /// So many per cent of the vehicles, rounded to whole ones and drawn by the seed.
+    Share(f64),
+}
+
+/// One thing that an action does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Effect {
+    /// Gives a driver's parameter a value.
+    Set(&'static Parameter, f64),
+    /// Speed 0 for so many seconds.
+    Brake(f64),
+    /// A displacement by so many metres, downstream where positive.
+    Nudge(f64),
+}
+
+/// Something that happens at a time; it rounds to a whole step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Action {
+    /// Time, s.
+    pub at: f64,
+    /// To whom.
+    pub who: Who,
+    /// What, in this order.
+    pub effects: Vec<Effect>,
+}
+
+/// Drivers who differ from the default one from the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exception {
+    /// Who.
+    pub who: Who,
+    /// Parameters that differ, with their values.
+    pub values: Vec<(&'static Parameter, f64)>,
+}
+
+impl Who {
+    /// Whether such vehicles exist among `vehicles`.
+    pub fn check(self, vehicles: usize) -> Result<(), Invalid> {
+        let fits = match self {
+            Self::All => true,
+            Self::Vehicle(n) => (1..=vehicles).contains(&n),
+            Self::Range(first, last) => 1 <= first && first <= last && last <= vehicles,
+            Self::Share(percent) => (0.0..=100.0).contains(&percent),
+        };
+        if fits {
+            Ok(())
+        } else {
+            let allowed =
+                format!("a vehicle from 1 to {vehicles}, a range such as 3-7, “all”, or 0% to 100%");
+            Err(Invalid::new("vehicle", self, allowed))
+        }
+    }
+}
+
+impl fmt::Display for Who {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::All => write!(f, "all"),
+            Self::Vehicle(n) => write!(f, "{n}"),
+            Self::Range(a, b) => write!(f, "{a}-{b}"),
+            Self::Share(percent) => write!(f, "{percent}%"),
+        }
+    }
+}
+
+impl FromStr for Who {
+    type Err = Invalid;
+    fn from_str(text: &str) -> Result<Self, Invalid> {
+        let text = text.trim();
+        let wrong = || {
+            Invalid::new(
+                "vehicle",
+                quoted(text),
+                "a number, a range such as 3-7, “all”, or a share such as 10%",
+            )
+        };
+        if text == "all" {
+            Ok(Self::All)
+        } else if let Some(share) = text.strip_suffix('%') {
+            share.trim().parse().map(Self::Share).map_err(|_| wrong())
+        } else if let Some((first, last)) = text.split_once('-') {
+            match (first.trim().parse(), last.trim().parse()) {
+                (Ok(first), Ok(last)) => Ok(Self::Range(first, last)),
+                _ => Err(wrong()),
+            }
+        } else {
+            text.parse().map(Self::Vehicle).map_err(|_| wrong())
+        }
+    }
+}
+
+impl Effect {
+    /// Whether the value is allowed on a ring of `length` metres.
+    pub fn check(self, length: f64) -> Result<(), Invalid> {
+        match self {
+            Self::Set(parameter, value) => parameter.check(value),
+            Self::Brake(seconds) if (0.0..=1e7).contains(&seconds) => Ok(()),
+            Self::Brake(seconds) => Err(Invalid::new("brake", seconds, "a number from 0 to 10000000 s")),
+            Self::Nudge(metres) if metres.abs() <= length => Ok(()),
+            Self::Nudge(metres) => {
+                Err(Invalid::new("nudge", metres, format!("a number from -{length} to {length} m, one lap")))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Effect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Set(parameter, value) => write!(f, "{}={value}", parameter.hyphenated()),
+            Self::Brake(seconds) => write!(f, "brake={seconds}"),
+            Self::Nudge(metres) => write!(f, "nudge={metres}"),
+        }
+    }
+}
+
+/// `NAME=VALUE` with a number.
+fn assignment(text: &str) -> Result<(&str, f64), Invalid> {
+    let (name, value) = text
+        .split_once('=')
+        .ok_or_else(|| Invalid::new("effect", quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
+    let name = name.trim();
+    let number = value.trim().parse().map_err(|_| Invalid::new(name, quoted(value), "a number"))?;
+    Ok((name, number))
+}
+
+fn driver_parameter(name: &str, others: &str) -> Result<&'static Parameter, Invalid> {
+    Parameter::named(name).filter(|p| p.is_of_driver()).ok_or_else(|| {
+        let names: Vec<_> =
+            PARAMETERS.iter().filter(|p| p.is_of_driver()).map(Parameter::hyphenated).collect();
+        Invalid::new("effect", quoted(name), format!("{}{others}", names.join(", ")))
+    })
+}
+
+impl FromStr for Effect {
+    type Err = Invalid;
+    fn from_str(text: &str) -> Result<Self, Invalid> {
+        match assignment(text)? {
+            ("brake", seconds) => Ok(Self::Brake(seconds)),
+            ("nudge", metres) => Ok(Self::Nudge(metres)),
+            (name, value) => driver_parameter(name, ", brake, nudge").map(|p| Self::Set(p, value)),
+        }
+    }
+}
+
+impl fmt::Display for Action {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at={}:{}:{}", self.at, self.who, joined(&self.effects))
+    }
+}
+
+impl FromStr for Action {
+    type Err = Invalid;
+    fn from_str(text: &str) -> Result<Self, Invalid> {
+        let form = || {
+            Invalid::new(
+                "action",
+                quoted(text),
+                "at=SECONDS:WHO:EFFECT, such as at=30:all:reaction-time=0.75",
+            )
+        };
+        let mut parts = text.trim().splitn(3, ':');
+        let (Some(at), Some(who), Some(effects)) = (parts.next(), parts.next(), parts.next()) else {
+            return Err(form());
+        };
+        let (name, at) = assignment(at).map_err(|_| form())?;
+        if name != "at" {
+            return Err(form());
+        }
+        let effects = effects.split(',').map(str::parse).collect::<Result<_, _>>();
+        Ok(Self {
+            at,
+            who: who.parse().map_err(|e: Invalid| e.within(quoted(text)))?,
+            effects: effects.map_err(|e: Invalid| e.within(quoted(text)))?,
+        })
+    }
+}
+
+impl fmt::Display for Exception {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let values: Vec<_> = self.values.iter().map(|&(p, v)| Effect::Set(p, v)).collect();
+        write!(f, "{}:{}", self.who, joined(&values))
+    }
+}
+
+impl FromStr for Exception {
+    type Err = Invalid;
+    fn from_str(text: &str) -> Result<Self, Invalid> {
+        let (who, values) = text.split_once(':').ok_or_else(|| {
+            Invalid::new("driver", quoted(text), "WHO:PARAMETER=VALUE, such as 12:sensitivity=2")
+        })?;
+        let one = |text: &str| {
+            let (name, value) = assignment(text)?;
+            Ok((driver_parameter(name, "")?, value))
+        };
+        let values = values.split(',').map(one).collect::<Result<_, _>>();
+        Ok(Self {
+            who: who.parse().map_err(|e: Invalid| e.within(quoted(text)))?,
+            values: values.map_err(|e: Invalid| e.within(quoted(text)))?,
+        })
+    }
+}
+
+fn joined(effects: &[Effect]) -> String {
+    effects.iter().map(Effect::to_string).collect::<Vec<_>>().join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_reads_back() {
+        for text in [
+            "at=30:all:reaction-time=0.75",
+            "at=40:7:brake=3",
+            "at=0:1:nudge=1",
+            "at=1.5:3-7:nudge=-0.1,brake=2",
+        ] {
+            assert_eq!(text.parse::<Action>().unwrap().to_string(), text);
+        }
+        for text in ["12:sensitivity=2", "10%:sensitivity=2,reaction-time=0.5", "all:max-speed=30"] {
+            assert_eq!(text.parse::<Exception>().unwrap().to_string(), text);
+        }
+        assert_eq!("at=1:2:reaction_time=1".parse::<Action>().unwrap().to_string(), "at=1:2:reaction-time=1");
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        for (text, named) in [
+            ("30:all:reaction-time=1", "at=SECONDS"),
+            ("at=30:all", "at=SECONDS"),
+            ("at=30:some:brake=1", "“some”"),
+            ("at=30:1:sleep=1", "“sleep”"),
+            ("at=30:1:vehicles=1", "“vehicles”"),
+            ("at=30:1:brake=soon", "“soon”"),
+        ] {
+            let message = text.parse::<Action>().unwrap_err().to_string();
+            assert!(message.contains(named), "{message}");
+        }
+        for text in ["sensitivity=2", "12:brake=2", "x:sensitivity=1"] {
+            assert!(text.parse::<Exception>().is_err(), "{text}");
+        }
+        assert!(Who::Vehicle(51).check(50).unwrap_err().to_string().contains("51"));
+        assert!(Who::Vehicle(0).check(50).is_err() && Who::Range(7, 3).check(50).is_err());
+        assert!(Who::Share(f64::NAN).check(50).is_err() && Who::Share(101.0).check(50).is_err());
+    }
+}

@@ -1,0 +1,36 @@
+//! What is wrong with an input: which field, which value, and what would be right.
+
+use std::fmt;
+
+/// A refused input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Invalid {
+    /// The field, as the person who wrote it knows it.
+    pub field: String,
+    /// The value that was given.
+    pub value: String,
+    /// What is allowed instead.
+    pub allowed: String,
+}
+
+impl Invalid {
+    /// A refusal of `value` for `field`.
+    pub fn new(field: impl Into<String>, value: impl fmt::Display, allowed: impl Into<String>) -> Self {
+        Self { field: field.into(), value: value.to_string(), allowed: allowed.into() }
+    }
+
+    /// The same refusal, seen from further out: `actions[2]: …`.
+    #[must_use]
+    pub fn within(mut self, place: impl fmt::Display) -> Self {
+        self.field = format!("{place}: {}", self.field);
+        self
+    }
+}
+
+impl fmt::Display for Invalid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} is not allowed; allowed: {}", self.field, self.value, self.allowed)
+    }
+}
+
+impl std::error::Error for Invalid {}
