@@ -16,11 +16,22 @@
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
+//! | [`preset`] | scenarios with names |
+//! | [`measurement`] | what to measure, plain data |
+//! | [`probe`] | one file a measurement |
+//! | [`fit`] | straight lines and exponentials through points |
+//! | [`table`] | columns, units, CSV |
 
 pub mod action;
 pub mod driver;
 pub mod error;
 pub mod exp;
+pub mod fit;
+pub mod measurement;
 pub mod parameters;
+pub mod preset;
+pub mod probe;
 pub mod random;
 pub mod scenario;
+pub mod simulation;
+pub mod table;
