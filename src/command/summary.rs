@@ -99,7 +99,7 @@ pub(crate) fn summary(simulation: &Simulation, watched: &Watched) -> String {
     let time = simulation.time();
     let driven: f64 = (0..n).map(|j| simulation.distance(j)).sum();
     let delays = (0..n).map(|j| simulation.delay_steps(j));
-    let seconds = |steps: Option<u32>| f64::from(steps.unwrap_or(0)) * simulation.scenario().time_step;
+    let seconds = |steps: Option<usize>| steps.unwrap_or(0) as f64 * simulation.scenario().time_step;
     let vehicle = |j: usize| Vehicle {
         vehicle: j + 1,
         lane: simulation.lane(j) + 1,
