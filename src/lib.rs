@@ -16,6 +16,7 @@
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
+//! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 
 pub mod action;
 pub mod driver;
@@ -24,3 +25,4 @@ pub mod exp;
 pub mod parameters;
 pub mod random;
 pub mod scenario;
+pub mod stability;
