@@ -26,17 +26,24 @@
 //! | [`ring`] | who is ahead, who passed |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
 //! | [`table`] | columns, units, CSV |
+//! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
+//! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
+//! | [`plot`], [`colour`] | tables to pictures |
 
 pub mod action;
+pub mod claim;
+pub mod colour;
 pub mod driver;
 pub mod error;
 pub mod exp;
+pub mod figure;
 pub mod fit;
 pub mod following;
 pub mod frustration;
 pub mod history;
 pub mod measurement;
 pub mod parameters;
+pub mod plot;
 pub mod preset;
 pub mod probe;
 pub mod random;
@@ -44,4 +51,5 @@ pub mod reaction;
 pub mod ring;
 pub mod scenario;
 pub mod simulation;
+pub mod stability;
 pub mod table;

@@ -179,7 +179,7 @@ pub fn ticks(low: f64, high: f64, most: usize) -> Vec<(f64, String)> {
         power *= 10.0;
         decimals = decimals.saturating_sub(1);
     }
-    let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= least).unwrap_or(10.0);
+    let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= least * (1.0 - 1e-9)).unwrap_or(10.0);
     let (step, decimals) = if factor == 10.0 { (10.0 * power, decimals.saturating_sub(1)) } else { (factor * power, decimals) };
     let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
     (first..=last)

@@ -1,0 +1,6 @@
+//! Linear stability, exact.
+
+pub(crate) mod complex;
+pub mod equal;
+pub mod jacobian;
+pub mod lambert;
