@@ -16,11 +16,22 @@
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
+//! | [`simulation`] | the state and its step |
+//! | [`following`] | perceived headways to speeds, all vehicles at once |
+//! | [`history`], [`reaction`] | what was Δ ago, and how long ago that is for whom |
+//! | [`ring`] | who is ahead, who passed |
+//! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
 
 pub mod action;
 pub mod driver;
 pub mod error;
 pub mod exp;
+pub mod following;
+pub mod frustration;
+pub mod history;
 pub mod parameters;
 pub mod random;
+pub mod reaction;
+pub mod ring;
 pub mod scenario;
+pub mod simulation;

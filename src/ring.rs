@@ -1,0 +1,506 @@
+//! Who is ahead: the order of the vehicles in each lane, and for every vehicle the next one ahead in each
+//! adjacent lane, kept as vehicles pass and change lanes, never sorted.
+//!
+//! # Terms
+//!
+//! *Unwrapped position*: position at the start plus displacement, x = x⁰ + s. *Offset* of i seen from j: the number
+//! o = (x⁰_i − x⁰_j) − n·L with a whole number of laps n, such that the distance o + (s_i − s_j) lies in (0, L]:
+//! one exactly alongside is a lap ahead. The whole number that does it is n = ⌈g/L⌉ − 1 with g = x_i − x_j; it is
+//! found by comparing rounded sums, the same everywhere, so that "has passed" is exact and
+//! never counted twice.
+//!
+//! *Behind* and *ahead* in a lane are links of a circular list. *Beside*: the vehicle next ahead in an
+//! adjacent lane; the one behind that is at most alongside. Cost: O(1) a vehicle and step, plus passes and changes.
+
+use crate::random::{Generator, Stream};
+use crate::scenario::{Scenario, Start};
+
+/// No vehicle.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// An adjacent lane: towards lane 1, or away from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The lane with the next smaller number.
+    Outer,
+    /// The lane with the next larger number.
+    Inner,
+}
+
+impl Side {
+    /// Both.
+    pub const BOTH: [Self; 2] = [Self::Outer, Self::Inner];
+
+    /// The other one.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Outer => Self::Inner,
+            Self::Inner => Self::Outer,
+        }
+    }
+}
+
+/// The vehicle next ahead in an adjacent lane, and its offset.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Beside {
+    pub(crate) vehicle: u32,
+    pub(crate) offset: f64,
+}
+
+const NOBODY: Beside = Beside { vehicle: NONE, offset: f64::INFINITY };
+
+/// Vehicle `passer` has gone past `passed`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Pass {
+    pub(crate) passer: u32,
+    pub(crate) passed: u32,
+}
+
+/// The order of the vehicles.
+#[derive(Clone, Debug)]
+pub struct Ring {
+    length: f64,
+    /// x⁰: positions at t = 0, unwrapped, m.
+    start: Vec<f64>,
+    lane: Vec<u8>,
+    ahead: Vec<u32>,
+    behind: Vec<u32>,
+    /// Offset of the leader: its headway at the start, for vehicles that still follow the same one.
+    offset: Vec<f64>,
+    beside: [Vec<Beside>; 2],
+    /// Vehicles per lane.
+    count: Vec<usize>,
+    /// Some vehicle of each lane.
+    member: Vec<u32>,
+    /// No vehicle has changed lane yet: in a lane, the leader of j is j + 1, but for the last.
+    in_order: bool,
+}
+
+impl Ring {
+    /// The start of a valid scenario, before any nudge. Beside is not known yet: see [`Self::find_beside`].
+    pub fn new(scenario: &Scenario) -> Self {
+        let n = scenario.vehicles;
+        let length = scenario.length;
+        let count = scenario.vehicles_per_lane();
+        let mut ring = Self {
+            length,
+            start: Vec::with_capacity(n),
+            lane: Vec::with_capacity(n),
+            ahead: Vec::with_capacity(n),
+            behind: Vec::with_capacity(n),
+            offset: Vec::with_capacity(n),
+            beside: [Vec::new(), Vec::new()],
+            member: vec![NONE; scenario.lanes],
+            count,
+            in_order: true,
+        };
+        let drivers = if scenario.start == Start::Random { scenario.drivers() } else { Vec::new() };
+        let mut generator = Generator::new(scenario.seed, Stream::Start);
+        for lane in 0..scenario.lanes {
+            let vehicles = ring.count[lane];
+            if vehicles == 0 {
+                continue;
+            }
+            let first = ring.start.len();
+            ring.member[lane] = first as u32;
+            for k in 0..vehicles {
+                ring.lane.push(lane as u8);
+                ring.ahead.push((first + if k + 1 == vehicles { 0 } else { k + 1 }) as u32);
+                ring.behind.push((first + if k == 0 { vehicles - 1 } else { k - 1 }) as u32);
+            }
+            if scenario.start == Start::Random {
+                let min_headways = drivers[first..first + vehicles].iter().map(|d| d.min_headway);
+                ring.place_at_random(min_headways, &mut generator);
+            } else {
+                let headway = length / vehicles as f64;
+                let shift = if scenario.start == Start::Staggered {
+                    (scenario.lanes - 1 - lane) as f64 * (length / n as f64)
+                } else {
+                    0.0
+                };
+                ring.start.extend((0..vehicles).map(|k| k as f64 * headway + shift));
+                ring.offset.extend((0..vehicles).map(|_| headway));
+            }
+        }
+        if scenario.lanes > 1 {
+            ring.beside = [vec![NOBODY; n], vec![NOBODY; n]];
+        }
+        ring
+    }
+
+    /// Adds a lane in which every headway is the driver's minimum and a share of the free length, uniformly
+    /// distributed over all ways to share it; the whole lane is turned by a uniform angle.
+    fn place_at_random(
+        &mut self,
+        min_headways: impl ExactSizeIterator<Item = f64> + Clone,
+        generator: &mut Generator,
+    ) {
+        let free = self.length - min_headways.clone().sum::<f64>();
+        let mut cuts: Vec<f64> = (1..min_headways.len()).map(|_| generator.uniform() * free).collect();
+        cuts.sort_unstable_by(f64::total_cmp);
+        cuts.push(free);
+        let mut position = generator.uniform() * self.length;
+        let mut last = 0.0;
+        for (min_headway, cut) in min_headways.zip(cuts) {
+            let headway = min_headway + (cut - last);
+            self.start.push(position);
+            self.offset.push(headway);
+            position += headway;
+            last = cut;
+        }
+    }
+
+    /// Vehicles per lane, outermost first.
+    pub fn vehicles_per_lane(&self) -> &[usize] {
+        &self.count
+    }
+    /// The lane of a vehicle, from 0.
+    #[inline]
+    pub fn lane(&self, j: usize) -> usize {
+        usize::from(self.lane[j])
+    }
+    /// The next vehicle ahead in its lane; itself when alone.
+    #[inline]
+    pub fn ahead(&self, j: usize) -> usize {
+        self.ahead[j] as usize
+    }
+    /// The next vehicle behind in its lane; itself when alone.
+    #[inline]
+    pub fn behind(&self, j: usize) -> usize {
+        self.behind[j] as usize
+    }
+    /// Offsets of the leaders, m.
+    #[inline]
+    pub(crate) fn offsets(&self) -> &[f64] {
+        &self.offset
+    }
+    /// The leaders.
+    #[inline]
+    pub(crate) fn leaders(&self) -> &[u32] {
+        &self.ahead
+    }
+    /// Whether, in each lane, the leader of j is still j + 1 but for the last.
+    pub(crate) fn is_in_order(&self) -> bool {
+        self.in_order
+    }
+    /// Position at the start, m.
+    #[inline]
+    pub fn start(&self, j: usize) -> f64 {
+        self.start[j]
+    }
+    /// L, m.
+    #[inline]
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+    #[inline]
+    pub(crate) fn beside(&self, j: usize, side: Side) -> Beside {
+        self.beside[side as usize][j]
+    }
+
+    /// The lane on that side of vehicle `j`, if there is one.
+    #[inline]
+    pub fn lane_beside(&self, j: usize, side: Side) -> Option<usize> {
+        let lane = self.lane(j);
+        match side {
+            Side::Outer => lane.checked_sub(1),
+            Side::Inner => (lane + 1 < self.count.len()).then_some(lane + 1),
+        }
+    }
+
+    /// Moves the position at the start: a nudge at t = 0.
+    pub(crate) fn nudge_start(&mut self, j: usize, metres: f64) {
+        self.start[j] += metres;
+        let follower = self.behind(j);
+        if follower != j {
+            self.offset[j] -= metres;
+            self.offset[follower] += metres;
+        }
+    }
+
+    /// ⌈(x_i − x_j)/L⌉, exact: the least n with (x⁰_i − x⁰_j) − n·L + (s_i − s_j) ≤ 0 as rounded sums.
+    pub(crate) fn laps(&self, i: usize, j: usize, s: &[f64]) -> f64 {
+        let base = self.start[i] - self.start[j];
+        let driven = s[i] - s[j];
+        let mut n = ((base + driven) / self.length).ceil();
+        while (base - n * self.length) + driven > 0.0 {
+            n += 1.0;
+        }
+        while (base - (n - 1.0) * self.length) + driven <= 0.0 {
+            n -= 1.0;
+        }
+        n
+    }
+
+    /// Offset of i seen from j; the distance `offset + (s_i − s_j)` is in (0, L].
+    fn offset_of(&self, i: usize, j: usize, s: &[f64]) -> f64 {
+        (self.start[i] - self.start[j]) - (self.laps(i, j, s) - 1.0) * self.length
+    }
+
+    /// Distance from j back to i, in [0, L).
+    pub(crate) fn distance_behind(&self, i: usize, j: usize, s: &[f64]) -> f64 {
+        -(((self.start[i] - self.start[j]) - self.laps(i, j, s) * self.length) + (s[i] - s[j]))
+    }
+
+    /// Whether i is ahead of j, given its distance up to rounding, `about`, in (−L, L); its offset if so.
+    fn offset_if_ahead(&self, i: usize, j: usize, s: &[f64], about: f64) -> Option<f64> {
+        let offset = self.offset_of(i, j, s);
+        let distance = offset + (s[i] - s[j]);
+        ((distance - about).abs() < 0.5 * self.length).then_some(offset)
+    }
+
+    /// True headway of j, m.
+    #[inline]
+    pub(crate) fn headway(&self, j: usize, s: &[f64]) -> f64 {
+        self.offset[j] + (s[self.ahead(j)] - s[j])
+    }
+
+    /// Finds every vehicle's beside anew, lane by lane; O(N) after a search for one vehicle a lane.
+    pub(crate) fn find_beside(&mut self, s: &[f64]) {
+        for lane in 0..self.count.len() {
+            for side in Side::BOTH {
+                let Some(first) = self.first_in(lane) else { continue };
+                let Some(target) = self.lane_beside(first, side) else { continue };
+                let mut j = first;
+                let mut found = self.search(first, target, s);
+                loop {
+                    self.beside[side as usize][j] = found;
+                    let next = self.ahead(j);
+                    if next == first {
+                        break;
+                    }
+                    if found.vehicle != NONE {
+                        // From j the one ahead of `next` is at or ahead of `found`.
+                        let i = found.vehicle as usize;
+                        let about = found.offset + (s[i] - s[j]) - self.headway(j, s);
+                        found = self.walk_ahead(next, i, about, s);
+                    }
+                    j = next;
+                }
+            }
+        }
+    }
+
+    fn first_in(&self, lane: usize) -> Option<usize> {
+        (self.member[lane] != NONE).then_some(self.member[lane] as usize)
+    }
+
+    /// The next vehicle ahead of j in a lane, by looking at all of them.
+    fn search(&self, j: usize, lane: usize, s: &[f64]) -> Beside {
+        let Some(first) = self.first_in(lane) else { return NOBODY };
+        let mut best = (NOBODY, f64::INFINITY);
+        let mut i = first;
+        loop {
+            let offset = self.offset_of(i, j, s);
+            let distance = offset + (s[i] - s[j]);
+            if distance < best.1 {
+                best = (Beside { vehicle: i as u32, offset }, distance);
+            }
+            i = self.ahead(i);
+            if i == first {
+                return best.0;
+            }
+        }
+    }
+
+    /// The next vehicle ahead of j, at i or ahead of i, where i is about `about` metres ahead (negative: behind).
+    fn walk_ahead(&self, j: usize, mut i: usize, mut about: f64, s: &[f64]) -> Beside {
+        loop {
+            if let Some(offset) = self.offset_if_ahead(i, j, s, about) {
+                return Beside { vehicle: i as u32, offset };
+            }
+            about += self.headway(i, s);
+            i = self.ahead(i);
+        }
+    }
+
+    /// Brings beside up to date after the vehicles have moved, and tells who was passed by whom, in order of the
+    /// passed.
+    pub(crate) fn follow_motion(&mut self, s: &[f64], passes: &mut Vec<Pass>) {
+        for j in 0..self.lane.len() {
+            for side in Side::BOTH {
+                let Beside { vehicle, offset } = self.beside[side as usize][j];
+                if vehicle == NONE {
+                    continue;
+                }
+                let i = vehicle as usize;
+                let distance = offset + (s[i] - s[j]);
+                if distance <= 0.0 {
+                    // j has passed i.
+                    let next = self.ahead(i);
+                    let found = self.walk_ahead(j, next, distance + self.headway(i, s), s);
+                    self.beside[side as usize][j] = found;
+                    continue;
+                }
+                // The vehicle behind i was at most alongside; anywhere near now, it is looked at closely.
+                let follower = self.behind(i);
+                if distance - self.headway(follower, s) > -NEAR {
+                    self.follow_passers(j, side, distance, s, passes);
+                }
+            }
+        }
+    }
+
+    /// Vehicles behind `beside` that have gone past j, one after the other.
+    fn follow_passers(&mut self, j: usize, side: Side, mut distance: f64, s: &[f64], passes: &mut Vec<Pass>) {
+        loop {
+            let i = self.beside[side as usize][j].vehicle as usize;
+            let follower = self.behind(i);
+            let about = distance - self.headway(follower, s);
+            let Some(offset) = self.offset_if_ahead(follower, j, s, about) else { return };
+            self.beside[side as usize][j] = Beside { vehicle: follower as u32, offset };
+            passes.push(Pass { passer: follower as u32, passed: j as u32 });
+            distance = offset + (s[follower] - s[j]);
+        }
+    }
+
+    /// Moves `m` to the lane on that side; the vehicles of the lanes around learn of it. `crossed` gets the vehicles
+    /// of the far lane, new beside m, that m went past on the way from the displacements `before` to `s`.
+    pub(crate) fn change_lane(
+        &mut self,
+        m: usize,
+        side: Side,
+        before: &[f64],
+        s: &[f64],
+        crossed: &mut Vec<Pass>,
+    ) {
+        let to = self.lane_beside(m, side).expect("an attempt aims at a lane that exists");
+        let front = self.beside[side as usize][m].vehicle;
+        self.announce_leaving(m, s);
+        let leader = self.leave(m, s);
+        self.enter(m, to, front, s);
+        self.in_order = false;
+        self.beside[side.opposite() as usize][m] = match leader {
+            Some(i) => Beside { vehicle: i as u32, offset: self.offset_of(i, m, s) },
+            None => NOBODY,
+        };
+        self.beside[side as usize][m] = self.find_in_far_lane(m, side, s);
+        for listeners in Side::BOTH {
+            self.announce_arrival(m, listeners, s);
+        }
+        self.find_crossed(m, side, before, s, crossed);
+    }
+
+    /// Who has m beside gets the vehicle ahead of m: those just behind m in the adjacent lanes.
+    fn announce_leaving(&mut self, m: usize, s: &[f64]) {
+        let leader = self.ahead(m);
+        for side in Side::BOTH {
+            let toward = side.opposite() as usize;
+            let mut walk = self.back_from_beside(m, side);
+            while let Some(j) = walk.step(&self.behind) {
+                if self.beside[toward][j].vehicle != m as u32 {
+                    break;
+                }
+                self.beside[toward][j] = if leader == m {
+                    NOBODY
+                } else {
+                    Beside { vehicle: leader as u32, offset: self.offset_of(leader, j, s) }
+                };
+            }
+        }
+    }
+
+    /// Who is behind m in the lane on that side gets m beside, as far back as m is the next ahead.
+    fn announce_arrival(&mut self, m: usize, side: Side, s: &[f64]) {
+        let toward = side.opposite() as usize;
+        let mut walk = self.back_from_beside(m, side);
+        while let Some(j) = walk.step(&self.behind) {
+            let now = self.beside[toward][j];
+            let offset = self.offset_of(m, j, s);
+            let farther = now.vehicle != NONE
+                && now.offset + (s[now.vehicle as usize] - s[j]) <= offset + (s[m] - s[j]);
+            if farther {
+                break;
+            }
+            self.beside[toward][j] = Beside { vehicle: m as u32, offset };
+        }
+    }
+
+    /// The vehicles of the lane on that side that m has gone past since `before`: just behind m, if any.
+    fn find_crossed(&self, m: usize, side: Side, before: &[f64], s: &[f64], crossed: &mut Vec<Pass>) {
+        let mut walk = self.back_from_beside(m, side);
+        while let Some(j) = walk.step(&self.behind) {
+            if self.laps(m, j, s) <= self.laps(m, j, before) {
+                break;
+            }
+            crossed.push(Pass { passer: m as u32, passed: j as u32 });
+        }
+    }
+
+    /// The vehicles of the lane on that side of m, once round, backwards from the one that is at most alongside.
+    fn back_from_beside(&self, m: usize, side: Side) -> BackWalk {
+        let vehicle = self.beside[side as usize][m].vehicle;
+        if vehicle == NONE {
+            BackWalk { next: 0, left: 0 }
+        } else {
+            BackWalk { next: self.behind(vehicle as usize), left: self.count[self.lane(vehicle as usize)] }
+        }
+    }
+
+    /// Takes m out of its lane; its leader there, if it was not alone.
+    fn leave(&mut self, m: usize, s: &[f64]) -> Option<usize> {
+        let (from, leader, follower) = (self.lane(m), self.ahead(m), self.behind(m));
+        self.count[from] -= 1;
+        if leader == m {
+            self.member[from] = NONE;
+            return None;
+        }
+        self.ahead[follower] = leader as u32;
+        self.behind[leader] = follower as u32;
+        self.offset[follower] = self.offset_of(leader, follower, s);
+        if self.member[from] == m as u32 {
+            self.member[from] = leader as u32;
+        }
+        Some(leader)
+    }
+
+    /// Puts m into a lane, behind `front`, or alone.
+    fn enter(&mut self, m: usize, to: usize, front: u32, s: &[f64]) {
+        self.lane[m] = to as u8;
+        self.count[to] += 1;
+        if front == NONE {
+            (self.ahead[m], self.behind[m]) = (m as u32, m as u32);
+            self.member[to] = m as u32;
+        } else {
+            let front = front as usize;
+            let rear = self.behind(front);
+            (self.ahead[m], self.behind[m]) = (front as u32, rear as u32);
+            (self.behind[front], self.ahead[rear]) = (m as u32, m as u32);
+            self.offset[rear] = self.offset_of(m, rear, s);
+        }
+        self.offset[m] = self.offset_of(self.ahead(m), m, s);
+    }
+
+    /// The next vehicle ahead of m in the lane on that side, starting from what the vehicle behind m has beside it.
+    fn find_in_far_lane(&self, m: usize, side: Side, s: &[f64]) -> Beside {
+        let Some(lane) = self.lane_beside(m, side) else { return NOBODY };
+        let rear = self.behind(m);
+        let hint = self.beside[side as usize][rear];
+        if rear == m || hint.vehicle == NONE {
+            return self.search(m, lane, s);
+        }
+        let i = hint.vehicle as usize;
+        self.walk_ahead(m, i, hint.offset + (s[i] - s[rear]) - self.headway(rear, s), s)
+    }
+}
+
+/// Goes back in a lane; see [`Ring::back_from_beside`]. It holds no borrow: the next vehicle is asked for by
+/// [`BackWalk::step`].
+struct BackWalk {
+    next: usize,
+    left: usize,
+}
+
+impl BackWalk {
+    fn step(&mut self, behind: &[u32]) -> Option<usize> {
+        self.left = self.left.checked_sub(1)?;
+        let j = self.next;
+        self.next = behind[j] as usize;
+        Some(j)
+    }
+}
+
+/// Distance (m) under which rounding might hide a pass, so that it is looked at exactly; far above the rounding of
+/// positions, far below a vehicle's length.
+const NEAR: f64 = 1e-3;
