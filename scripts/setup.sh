@@ -27,7 +27,7 @@ fi
 
 rust_version() { rustc --version 2>/dev/null | cut -d ' ' -f 2 | cut -d - -f 1; }
 has_rust() { have cargo && at_least "$rust_wanted" "$(rust_version)"; }
-has_wasm_target() { [ -d "$(rustc --print sysroot)/lib/rustlib/wasm32-unknown-unknown/lib" ]; }
+has_wasm_target() { [ -d "$(rustc --print sysroot 2>/dev/null)/lib/rustlib/wasm32-unknown-unknown/lib" ]; }
 has_component() { cargo "$1" --version >/dev/null 2>&1; }
 has_bindgen() { [ "$(wasm-bindgen --version 2>/dev/null)" = "wasm-bindgen $bindgen_wanted" ]; }
 has_pack() { at_least "$pack_wanted" "$(wasm-pack --version 2>/dev/null | cut -d ' ' -f 2)"; }
@@ -61,8 +61,8 @@ list_and_fail() {
     [ ${#packages[@]} -eq 0 ] || printf '  - what Debian calls %s\n' "${packages[@]}"
     has_node || echo "  - Node 20.19, 22.12 or newer, with npm"
     has_rust || echo "  - Rust $rust_wanted or newer, by rustup"
-    if have rustc; then has_wasm_target || echo "  - rustup target add wasm32-unknown-unknown"; fi
-    if [ "$purpose" = test ] && have cargo; then
+    has_wasm_target || echo "  - rustup target add wasm32-unknown-unknown"
+    if [ "$purpose" = test ]; then
       has_component fmt || echo "  - rustup component add rustfmt"
       has_component clippy || echo "  - rustup component add clippy"
     fi
