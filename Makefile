@@ -34,8 +34,7 @@ LOG = 2>&1 | tee $(LOGS)/$@.log
 COMMIT := $(if $(wildcard build.rs),$(wildcard $(shell git rev-parse --git-path logs/HEAD 2>/dev/null)))
 CORE := Cargo.toml Cargo.lock .cargo/config.toml $(wildcard build.rs) $(COMMIT) \
 	$(shell find src -name '*.rs' -not -path src/main.rs)
-PAGE := $(shell find www -type f -not -path 'www/node_modules/*' -not -path 'www/pkg/*' \
-	-not -path 'www/tests/*' -not -path 'www/test-results/*' 2>/dev/null)
+PAGE := $(wildcard www/*.html www/*.ts www/tsconfig.json) $(shell find www/src www/public -type f 2>/dev/null)
 
 # ---- what people type ------------------------------------------------------------------------------------------
 
