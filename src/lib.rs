@@ -35,3 +35,8 @@ pub mod reaction;
 pub mod ring;
 pub mod scenario;
 pub mod simulation;
+
+/// The README's example runs with the tests in the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
