@@ -38,7 +38,7 @@ PAGE := $(wildcard www/*.html www/*.ts www/tsconfig.json) $(shell find www/src w
 
 # ---- what people type ------------------------------------------------------------------------------------------
 
-.PHONY: help run build test bench bench-web clean distclean
+.PHONY: help run build test bench bench-web screenshot clean distclean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /\1\t/' | expand -t 12
@@ -64,6 +64,9 @@ bench: | setup ## time the core and print ns per vehicle-update
 
 bench-web: www/pkg/ringroad_bg.wasm | setup-test ## the same in Chromium and in Node
 	$(NPM) run bench
+
+screenshot: build | setup-test ## take docs/lab.png anew
+	$(NPM) run screenshot
 
 clean: ## remove what was built
 	rm -rf dist www/pkg www/test-results target
