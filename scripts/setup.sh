@@ -98,6 +98,9 @@ fi
 
 # ---- what Rust's own tools bring ----
 
+# With the versions that its authors locked; where a mirror lacks one of them, with the newest that fit.
+install() { cargo install "$@" --locked --force || cargo install "$@" --force; }
+
 if ! has_rust; then
   have rustup || fail "Rust $rust_wanted or newer is needed: install rustup (https://rustup.rs)"
   echo "setup: Rust $rust_wanted"
@@ -111,10 +114,10 @@ if [ "$purpose" = test ]; then
 fi
 if ! has_bindgen; then
   echo "setup: wasm-bindgen $bindgen_wanted"
-  cargo install wasm-bindgen-cli --version "$bindgen_wanted" --locked --force
+  install wasm-bindgen-cli --version "$bindgen_wanted"
 fi
 if ! has_pack; then
   echo "setup: wasm-pack"
-  cargo install wasm-pack --locked --force
+  install wasm-pack
 fi
 complete || fail "something is still missing; this should not happen: bash -x scripts/setup.sh $purpose shows it"
