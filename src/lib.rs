@@ -37,3 +37,8 @@ pub mod ring;
 pub mod scenario;
 pub mod simulation;
 pub mod vector;
+
+/// The README's example runs with the tests in the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
