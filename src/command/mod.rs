@@ -9,6 +9,7 @@ mod parameters;
 mod presets;
 mod progress;
 mod replay;
+mod reproduce;
 mod run;
 mod summary;
 
@@ -27,8 +28,13 @@ pub(crate) struct Subcommand {
 }
 
 /// Every subcommand, in the order in which the help shows them.
-const SUBCOMMANDS: [Subcommand; 4] =
-    [run::SUBCOMMAND, presets::SUBCOMMAND, parameters::SUBCOMMAND, replay::SUBCOMMAND];
+const SUBCOMMANDS: [Subcommand; 5] = [
+    run::SUBCOMMAND,
+    presets::SUBCOMMAND,
+    parameters::SUBCOMMAND,
+    replay::SUBCOMMAND,
+    reproduce::SUBCOMMAND,
+];
 
 /// Why there is no result.
 #[derive(Debug)]
