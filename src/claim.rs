@@ -370,13 +370,21 @@ mod tests {
         assert_eq!(about(Estimate::new(2065.6, 0.2)), Verdict::Agrees);
         let most = |ours| claim(Expected::AtMost(2.0), ours).verdict();
         assert_eq!(most(Estimate::new(1.5, 0.4)), Verdict::Agrees);
-        assert_eq!(most(Estimate::new(1.5, 0.6)), Verdict::Differs, "an order must hold for the whole interval");
+        assert_eq!(
+            most(Estimate::new(1.5, 0.6)),
+            Verdict::Differs,
+            "an order must hold for the whole interval"
+        );
         let more = |ours| claim(Expected::MoreThan(0.0), ours).verdict();
         assert_eq!(more(Estimate::new(0.5, 0.4)), Verdict::Agrees);
         assert_eq!(more(Estimate::new(0.5, 0.5)), Verdict::Differs);
         for expected in [Expected::About(0.0, 1.0), Expected::AtMost(1.0), Expected::MoreThan(0.0)] {
             assert_eq!(claim(expected, Estimate::exact(f64::NAN)).verdict(), Verdict::Differs, "no value");
-            assert_eq!(claim(expected, Estimate::new(0.5, f64::NAN)).verdict(), Verdict::Differs, "one sample");
+            assert_eq!(
+                claim(expected, Estimate::new(0.5, f64::NAN)).verdict(),
+                Verdict::Differs,
+                "one sample"
+            );
         }
     }
 
@@ -405,11 +413,15 @@ mod tests {
     /// Values of tables of Student's distribution.
     #[test]
     fn quantiles_and_intervals() {
-        for (freedom, t) in [(1.0, 12.706), (4.0, 2.776), (5.0, 2.571), (9.0, 2.262), (19.0, 2.093), (99.0, 1.984)] {
+        for (freedom, t) in
+            [(1.0, 12.706), (4.0, 2.776), (5.0, 2.571), (9.0, 2.262), (19.0, 2.093), (99.0, 1.984)]
+        {
             assert!((student_95(freedom) - t).abs() < 2e-3, "{freedom}: {}", student_95(freedom));
         }
         let four = Estimate::mean(&[1.0, 2.0, 3.0, 4.0]);
-        assert!((four.value - 2.5).abs() < 1e-15 && (four.uncertainty - 3.182 * 1.290_994 / 2.0).abs() < 1e-3);
+        assert!(
+            (four.value - 2.5).abs() < 1e-15 && (four.uncertainty - 3.182 * 1.290_994 / 2.0).abs() < 1e-3
+        );
         assert!(Estimate::mean(&[1.0]).uncertainty.is_nan());
         // Wilson's interval for 8 of 10: 0.490 … 0.943.
         let share = Estimate::share(8, 10);
@@ -419,9 +431,14 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        for (value, text) in
-            [(2065.2, "2065"), (-1.0734, "−1.073"), (0.5368, "0.537"), (0.0, "0"), (33.333, "33.33"), (0.02, "0.02")]
-        {
+        for (value, text) in [
+            (2065.2, "2065"),
+            (-1.0734, "−1.073"),
+            (0.5368, "0.537"),
+            (0.0, "0"),
+            (33.333, "33.33"),
+            (0.02, "0.02"),
+        ] {
             assert_eq!(short(value), text);
         }
     }

@@ -5,7 +5,7 @@
 //! A map is a small PNG image, one pixel a cell, within the SVG. Colours are told apart by colour-blind eyes too,
 //! and nothing is told by colour alone: curves differ in their dashes, points in their shapes.
 
-use crate::colour::{Ground, Quantity, Rgb, Scale};
+use crate::colour::{Ground, LARGEST, Quantity, Rgb, Scale, signed_logarithmic};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -44,16 +44,23 @@ pub struct Axis {
     pub label: String,
     /// Its ends; found from the data where there are none.
     pub range: Option<(f64, f64)>,
+    /// Whether it is the signed logarithmic scale of [`crate::colour`], from −10 to 10: small and large
+    /// differences in one picture.
+    pub signed_log: bool,
 }
 
 impl Axis {
     /// An axis whose ends follow from the data.
     pub fn new(label: impl Into<String>) -> Self {
-        Self { label: label.into(), range: None }
+        Self { label: label.into(), range: None, signed_log: false }
     }
     /// An axis from `low` to `high`.
     pub fn from_to(label: impl Into<String>, low: f64, high: f64) -> Self {
-        Self { label: label.into(), range: Some((low, high)) }
+        Self { label: label.into(), range: Some((low, high)), signed_log: false }
+    }
+    /// An axis on the signed logarithmic scale.
+    pub fn signed_log(label: impl Into<String>) -> Self {
+        Self { label: label.into(), range: Some((-LARGEST, LARGEST)), signed_log: true }
     }
 }
 
@@ -106,6 +113,8 @@ pub enum Layer {
         vertical: bool,
         /// Where.
         at: f64,
+        /// Whether the name of a horizontal line stands at its left end.
+        left: bool,
     },
     /// Cells coloured by value.
     Map {
@@ -124,6 +133,8 @@ pub enum Layer {
         /// The value drawn in the colour of the page, lower ones blue, higher ones amber; without it, colours rise
         /// in lightness.
         middle: Option<f64>,
+        /// Whether the colours follow the signed logarithmic scale.
+        signed_log: bool,
     },
 }
 
@@ -180,7 +191,8 @@ pub fn ticks(low: f64, high: f64, most: usize) -> Vec<(f64, String)> {
         decimals = decimals.saturating_sub(1);
     }
     let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= least * (1.0 - 1e-9)).unwrap_or(10.0);
-    let (step, decimals) = if factor == 10.0 { (10.0 * power, decimals.saturating_sub(1)) } else { (factor * power, decimals) };
+    let (step, decimals) =
+        if factor == 10.0 { (10.0 * power, decimals.saturating_sub(1)) } else { (factor * power, decimals) };
     let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
     (first..=last)
         .map(|k| {
@@ -190,6 +202,11 @@ pub fn ticks(low: f64, high: f64, most: usize) -> Vec<(f64, String)> {
         .collect()
 }
 
+fn signed_log_ticks() -> Vec<(f64, String)> {
+    let scale = Scale::new(Quantity::Difference, Ground::Light, 1.0);
+    scale.ticks().into_iter().map(|t| (t, format!("{t}").replace('-', "−"))).collect()
+}
+
 /// From data to the page along one axis.
 #[derive(Clone, Copy)]
 struct Mapping {
@@ -197,11 +214,20 @@ struct Mapping {
     high: f64,
     start: f64,
     end: f64,
+    signed_log: bool,
 }
 
 impl Mapping {
     fn at(self, value: f64) -> f64 {
-        self.start + (value - self.low) / (self.high - self.low) * (self.end - self.start)
+        let place = if self.signed_log && !value.is_nan() {
+            0.5 + 0.5 * signed_logarithmic(value)
+        } else {
+            (value - self.low) / (self.high - self.low)
+        };
+        self.start + place * (self.end - self.start)
+    }
+    fn ticks(self, most: usize) -> Vec<(f64, String)> {
+        if self.signed_log { signed_log_ticks() } else { ticks(self.low, self.high, most) }
     }
     fn holds(self, value: f64) -> bool {
         let slack = 1e-9 * (self.high - self.low);
@@ -243,9 +269,11 @@ impl Layer {
             Self::Curve { y, .. } => y.clone(),
             Self::Band { low, high, .. } => low.iter().chain(high).copied().collect(),
             Self::Points { y, error, .. } if error.is_empty() => y.clone(),
-            Self::Points { y, error, .. } => {
-                y.iter().zip(error).flat_map(|(&y, &e)| if e.is_nan() { [y, y] } else { [y - e, y + e] }).collect()
-            }
+            Self::Points { y, error, .. } => y
+                .iter()
+                .zip(error)
+                .flat_map(|(&y, &e)| if e.is_nan() { [y, y] } else { [y - e, y + e] })
+                .collect(),
             Self::Map { y, .. } => vec![y.0, y.1],
             Self::Rule { vertical: false, at, .. } => vec![*at],
             Self::Rule { .. } => Vec::new(),
@@ -281,7 +309,7 @@ impl Plot {
                 top: HEADER + (k / columns) as f64 * cell_height + top,
                 bottom,
             };
-            panel.draw(&mut out, &frame, &format!("{id}-{k}"), columns > 1);
+            panel.draw(&mut out, &frame, &format!("{id}-{k}"));
         }
         out.push_str("</svg>\n");
         out
@@ -289,14 +317,25 @@ impl Plot {
 }
 
 impl Panel {
-    fn draw(&self, out: &mut String, frame: &Frame, id: &str, lettered: bool) {
+    fn draw(&self, out: &mut String, frame: &Frame, id: &str) {
         let has_map = self.layers.iter().any(|l| matches!(l, Layer::Map { .. }));
         let room = if has_map { 0.0 } else { 0.06 };
-        let x_room = if has_map || !self.layers.iter().any(|l| matches!(l, Layer::Points { .. })) { 0.0 } else { 0.03 };
+        let x_room = if has_map || !self.layers.iter().any(|l| matches!(l, Layer::Points { .. })) {
+            0.0
+        } else {
+            0.03
+        };
         let x = ends(&self.x, self.layers.iter().flat_map(Layer::abscissae), x_room);
         let y = ends(&self.y, self.layers.iter().flat_map(Layer::ordinates), room);
-        let x = Mapping { low: x.0, high: x.1, start: frame.left, end: frame.left + frame.width };
-        let y = Mapping { low: y.0, high: y.1, start: frame.top + frame.height, end: frame.top };
+        let (left, bottom) = (frame.left, frame.top + frame.height);
+        let x = Mapping {
+            low: x.0,
+            high: x.1,
+            start: left,
+            end: left + frame.width,
+            signed_log: self.x.signed_log,
+        };
+        let y = Mapping { low: y.0, high: y.1, start: bottom, end: frame.top, signed_log: self.y.signed_log };
         let clip = format!("{id}-clip");
         let _ = writeln!(
             out,
@@ -306,7 +345,7 @@ impl Panel {
             number(frame.width),
             number(frame.height)
         );
-        self.draw_title(out, frame, lettered);
+        self.draw_title(out, frame);
         self.draw_axes(out, frame, x, y, has_map);
         let _ = writeln!(out, "<g clip-path=\"url(#{clip})\">");
         for layer in &self.layers {
@@ -315,15 +354,19 @@ impl Panel {
         out.push_str("</g>\n");
         for layer in &self.layers {
             match layer {
-                Layer::Rule { name, vertical, at } => draw_rule_name(out, name, *vertical, *at, x, y),
-                Layer::Map { name, range, middle, .. } => draw_colour_bar(out, name, *range, *middle, frame, id),
+                Layer::Rule { name, vertical, at, left } => {
+                    draw_rule_name(out, name, (*vertical, *at, *left), x, y);
+                }
+                Layer::Map { name, range, middle, signed_log, .. } => {
+                    draw_colour_bar(out, name, *range, (middle.is_some(), *signed_log), frame, id);
+                }
                 _ => {}
             }
         }
         self.draw_legend(out, frame);
     }
 
-    fn draw_title(&self, out: &mut String, frame: &Frame, _lettered: bool) {
+    fn draw_title(&self, out: &mut String, frame: &Frame) {
         let _ = writeln!(
             out,
             "<text x=\"{}\" y=\"{}\" font-weight=\"600\" font-size=\"13\">{}</text>",
@@ -336,9 +379,9 @@ impl Panel {
     fn draw_axes(&self, out: &mut String, frame: &Frame, x: Mapping, y: Mapping, has_map: bool) {
         let bottom = frame.top + frame.height;
         let right = frame.left + frame.width;
-        let y_ticks = ticks(y.low, y.high, (frame.height / 34.0) as usize);
-        let widest = ticks(x.low, x.high, 8).iter().map(|t| text_width(&t.1)).fold(24.0, f64::max);
-        let x_ticks = ticks(x.low, x.high, (frame.width / (widest + 26.0)) as usize);
+        let y_ticks = y.ticks((frame.height / 34.0) as usize);
+        let widest = x.ticks(8).iter().map(|t| text_width(&t.1)).fold(24.0, f64::max);
+        let x_ticks = x.ticks((frame.width / (widest + 22.0)) as usize);
         let _ = writeln!(out, "<g fill=\"{QUIET}\" stroke-width=\"1\">");
         for (value, label) in &y_ticks {
             let at = number(y.at(*value));
@@ -495,8 +538,10 @@ fn draw_layer(out: &mut String, layer: &Layer, x: Mapping, y: Mapping) {
             };
             let _ = writeln!(out, "<path d=\"{d}\" stroke=\"{QUIET}\" stroke-dasharray=\"4 3\"/>");
         }
-        Layer::Map { width, x: across, y: up, values, range, middle, .. } => {
-            let png = map_png(*width, values, *range, middle.is_some());
+        Layer::Map { width, x: across, y: up, values, range, middle, signed_log, .. } => {
+            let scale =
+                Mapping { low: range.0, high: range.1, start: 0.0, end: 1.0, signed_log: *signed_log };
+            let png = map_png(*width, values, scale, middle.is_some());
             let _ = writeln!(
                 out,
                 "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>",
@@ -510,7 +555,13 @@ fn draw_layer(out: &mut String, layer: &Layer, x: Mapping, y: Mapping) {
     }
 }
 
-fn draw_rule_name(out: &mut String, name: &str, vertical: bool, at: f64, x: Mapping, y: Mapping) {
+fn draw_rule_name(
+    out: &mut String,
+    name: &str,
+    (vertical, at, left): (bool, f64, bool),
+    x: Mapping,
+    y: Mapping,
+) {
     if name.is_empty() || !(if vertical { x } else { y }).holds(at) {
         return;
     }
@@ -526,10 +577,11 @@ fn draw_rule_name(out: &mut String, name: &str, vertical: bool, at: f64, x: Mapp
             number(y.end + 12.0)
         );
     } else {
+        let (place, anchor) = if left { (x.start + 4.0, "start") } else { (x.end - 4.0, "end") };
         let _ = writeln!(
             out,
-            "<text x=\"{}\" y=\"{}\" text-anchor=\"end\" fill=\"{QUIET}\" {halo}>{name}</text>",
-            number(x.end - 4.0),
+            "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\" fill=\"{QUIET}\" {halo}>{name}</text>",
+            number(place),
             number(y.at(at) - 4.0)
         );
     }
@@ -547,11 +599,11 @@ fn draw_colour_bar(
     out: &mut String,
     name: &str,
     range: (f64, f64),
-    middle: Option<f64>,
+    (diverging, signed_log): (bool, bool),
     frame: &Frame,
     id: &str,
 ) {
-    let colours = palette(middle.is_some());
+    let colours = palette(diverging);
     let x = frame.left + frame.width + 12.0;
     let _ = write!(out, "<linearGradient id=\"{id}-bar\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
     for k in 0..=16 {
@@ -565,8 +617,9 @@ fn draw_colour_bar(
         number(frame.top),
         number(frame.height)
     );
-    let up = Mapping { low: range.0, high: range.1, start: frame.top + frame.height, end: frame.top };
-    for (value, label) in ticks(range.0, range.1, 5) {
+    let bottom = frame.top + frame.height;
+    let up = Mapping { low: range.0, high: range.1, start: bottom, end: frame.top, signed_log };
+    for (value, label) in up.ticks(5) {
         let _ = writeln!(
             out,
             "<text x=\"{}\" y=\"{}\" fill=\"{QUIET}\" font-size=\"11\">{label}</text>",
@@ -584,13 +637,13 @@ fn draw_colour_bar(
 }
 
 /// One pixel a cell, the largest y in the first row.
-fn map_png(width: usize, values: &[f64], range: (f64, f64), diverging: bool) -> Vec<u8> {
+fn map_png(width: usize, values: &[f64], scale: Mapping, diverging: bool) -> Vec<u8> {
     let height = values.len() / width.max(1);
     let mut pixels = Vec::with_capacity(height * (width + 1));
     for row in (0..height).rev() {
         pixels.push(0); // no filter
         for &value in &values[row * width..][..width] {
-            let place = ((value - range.0) / (range.1 - range.0)).clamp(0.0, 1.0);
+            let place = scale.at(value).clamp(0.0, 1.0);
             // NaN becomes 0, the blank.
             pixels.push(if place.is_nan() { 0 } else { 1 + (place * 254.0).round() as u8 });
         }
@@ -675,7 +728,8 @@ mod tests {
 
     #[test]
     fn base64_of_the_standard() {
-        for (text, code) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
+        for (text, code) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
+        {
             assert_eq!(base64(text.as_bytes()), code);
         }
     }
@@ -701,10 +755,27 @@ mod tests {
                     x: Axis::new("time (s)"),
                     y: Axis::new("speed (m/s)"),
                     layers: vec![
-                        Layer::Band { name: "interval".into(), style: 0, x: vec![0.0, 1.0], low: vec![0.0, 0.5], high: vec![1.0, 2.0] },
-                        Layer::Curve { name: "a".into(), style: 0, x: vec![0.0, 1.0, 2.0, 3.0], y: vec![0.0, f64::NAN, 1.0, 2.0] },
-                        Layer::Points { name: "b".into(), style: 1, x: vec![1.0], y: vec![1.0], error: vec![0.2] },
-                        Layer::Rule { name: "limit".into(), vertical: false, at: 1.5 },
+                        Layer::Band {
+                            name: "interval".into(),
+                            style: 0,
+                            x: vec![0.0, 1.0],
+                            low: vec![0.0, 0.5],
+                            high: vec![1.0, 2.0],
+                        },
+                        Layer::Curve {
+                            name: "a".into(),
+                            style: 0,
+                            x: vec![0.0, 1.0, 2.0, 3.0],
+                            y: vec![0.0, f64::NAN, 1.0, 2.0],
+                        },
+                        Layer::Points {
+                            name: "b".into(),
+                            style: 1,
+                            x: vec![1.0],
+                            y: vec![1.0],
+                            error: vec![0.2],
+                        },
+                        Layer::Rule { name: "limit".into(), vertical: false, at: 1.5, left: false },
                     ],
                 },
                 Panel {
@@ -719,6 +790,7 @@ mod tests {
                         values: vec![0.0, 0.5, 1.0, f64::NAN],
                         range: (0.0, 1.0),
                         middle: None,
+                        signed_log: false,
                     }],
                 },
             ],
@@ -729,7 +801,13 @@ mod tests {
     fn a_picture_says_what_it_is_and_escapes_its_texts() {
         let svg = plot().to_svg();
         assert!(svg.starts_with("<svg xmlns") && svg.ends_with("</svg>\n"));
-        for part in ["role=\"img\"", "<title id=\"test-title\">Speed &lt; flow &amp; more</title>", "<desc", "time (s)", "limit"] {
+        for part in [
+            "role=\"img\"",
+            "<title id=\"test-title\">Speed &lt; flow &amp; more</title>",
+            "<desc",
+            "time (s)",
+            "limit",
+        ] {
             assert!(svg.contains(part), "{part}");
         }
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
@@ -738,14 +816,15 @@ mod tests {
 
     #[test]
     fn a_curve_is_broken_where_there_is_no_value() {
-        let m = Mapping { low: 0.0, high: 3.0, start: 0.0, end: 30.0 };
+        let m = Mapping { low: 0.0, high: 3.0, start: 0.0, end: 30.0, signed_log: false };
         let d = path([(0.0, 0.0), (1.0, f64::NAN), (2.0, 1.0), (3.0, 2.0)].into_iter(), m, m);
         assert_eq!(d, "M0 0M20 10L30 20");
     }
 
     #[test]
     fn a_map_has_one_pixel_a_cell_with_the_largest_y_first() {
-        let png = map_png(2, &[0.0, 0.5, 1.0, f64::NAN], (0.0, 1.0), false);
+        let unit = Mapping { low: 0.0, high: 1.0, start: 0.0, end: 1.0, signed_log: false };
+        let png = map_png(2, &[0.0, 0.5, 1.0, f64::NAN], unit, false);
         let start = png.windows(4).position(|w| w == b"IDAT").unwrap() + 4 + 2 + 5;
         assert_eq!(png[start..start + 6], [0, 255, 0, 0, 1, 128]);
     }

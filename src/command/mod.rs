@@ -28,13 +28,8 @@ pub(crate) struct Subcommand {
 }
 
 /// Every subcommand, in the order in which the help shows them.
-const SUBCOMMANDS: [Subcommand; 5] = [
-    run::SUBCOMMAND,
-    presets::SUBCOMMAND,
-    parameters::SUBCOMMAND,
-    replay::SUBCOMMAND,
-    reproduce::SUBCOMMAND,
-];
+const SUBCOMMANDS: [Subcommand; 5] =
+    [run::SUBCOMMAND, presets::SUBCOMMAND, parameters::SUBCOMMAND, replay::SUBCOMMAND, reproduce::SUBCOMMAND];
 
 /// Why there is no result.
 #[derive(Debug)]

@@ -70,7 +70,8 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
 
 /// Those named, each once, in the order of the paper.
 fn figures(matches: &ArgMatches) -> Result<Vec<&'static Figure>, Failure> {
-    let names: Vec<&str> = matches.get_many::<String>("figure").into_iter().flatten().map(String::as_str).collect();
+    let names: Vec<&str> =
+        matches.get_many::<String>("figure").into_iter().flatten().map(String::as_str).collect();
     let all = names.is_empty() || names.contains(&"all");
     for name in names.iter().filter(|name| **name != "all") {
         Figure::named(name)?;

@@ -1,13 +1,12 @@
 //! One aggressive driver among fifty: what it gains, and what it does to the others.
 
-use super::{Figure, FigureTable, Outcome, Piece, Size, Spread, indicator, run_with};
+use super::{Figure, FigureTable, Outcome, Piece, Size, Spread, indicator, observed};
 use crate::claim::{Claim, Estimate, Expected, mean};
 use crate::plot::{Axis, Layer, Panel, Plot};
 use crate::probe::Probe;
 use crate::scenario::{Scenario, Start};
 use crate::simulation::{Event, Simulation};
 use crate::table::{Column, Table};
-use std::sync::{Arc, Mutex};
 
 const ID: &str = "aggressive-driver";
 
@@ -79,16 +78,16 @@ struct Log {
     last_distances: Vec<f64>,
 }
 
-/// The probe; the log stays with the caller.
+/// The probe that keeps it.
 struct Follow {
-    log: Arc<Mutex<Log>>,
+    log: Log,
     every: u64,
     lane_changes: u64,
 }
 
 impl Probe for Follow {
     fn observe(&mut self, simulation: &Simulation) {
-        let mut log = self.log.lock().expect("a probe has one reader at a time");
+        let log = &mut self.log;
         let n = simulation.vehicles();
         for event in simulation.events() {
             match *event {
@@ -140,19 +139,33 @@ impl Probe for Follow {
     }
 
     fn table(&self) -> Table {
-        let log = self.log.lock().expect("a probe has one reader at a time");
-        Table::new(vec![Column::float("time_s", "s", "time", log.times.clone())])
+        let log = &self.log;
+        let mut columns = vec![Column::float("time_s", "s", "time", log.times.clone())];
+        for (k, j) in FOLLOWED.iter().map(|j| j + 1).enumerate() {
+            let (changes, distance) = (log.changes[k].clone(), log.distances[k].clone());
+            columns.push(Column::float(
+                format!("lane_changes_{j}"),
+                "",
+                format!("lane changes of vehicle {j}"),
+                changes,
+            ));
+            columns.push(Column::float(
+                format!("distance_{j}_m"),
+                "m",
+                format!("distance driven by vehicle {j}"),
+                distance,
+            ));
+        }
+        Table::new(columns)
     }
 }
 
 fn run(size: Size, piece: usize) -> Piece {
     let aggressive = piece < runs(size);
     let scenario = scenario(size, aggressive, if aggressive { piece as u64 + 1 } else { 1 });
-    let log = Arc::new(Mutex::new(Log::default()));
-    let every = scenario.steps(EVERY);
-    let mut probes: Vec<Box<dyn Probe>> = vec![Box::new(Follow { log: Arc::clone(&log), every, lane_changes: 0 })];
-    let simulation = run_with(&scenario, &mut probes);
-    let log = log.lock().expect("a probe has one reader at a time");
+    let mut follow = Follow { log: Log::default(), every: scenario.steps(EVERY), lane_changes: 0 };
+    let simulation = observed(&scenario, &mut follow);
+    let log = follow.log;
     let rise = log.first_rise.unwrap_or((f64::NAN, false, f64::NAN));
     let mut columns = vec![log.times.clone()];
     columns.extend(log.changes.iter().cloned());
@@ -183,7 +196,8 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
     let time = runs[0].columns[0].clone();
     let spread = |k: usize| Spread::of(&runs.iter().map(|p| p.columns[k].as_slice()).collect::<Vec<_>>());
     let names = ["aggressive", "control_ahead", "control_behind"];
-    let words = ["vehicle 1, λ = 2", "vehicle 27, λ = 1, ahead in lane 2", "vehicle 26, λ = 1, behind in lane 2"];
+    let words =
+        ["vehicle 1, λ = 2", "vehicle 27, λ = 1, ahead in lane 2", "vehicle 26, λ = 1, behind in lane 2"];
     let mut columns = vec![Column::float("time_s", "s", "time", time.clone())];
     for k in 0..3 {
         let meaning = format!("lane changes of {}", words[k]);
@@ -209,14 +223,20 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
             }
             layers.push(Layer::Curve { name: (*name).into(), style: k, x: time.clone(), y: edge(0.0) });
         }
-        Panel { title: title.into(), x: Axis::from_to("time (s)", 0.0, until(size)), y: Axis::new(label), layers }
+        Panel {
+            title: title.into(),
+            x: Axis::from_to("time (s)", 0.0, until(size)),
+            y: Axis::new(label),
+            layers,
+        }
     };
     let plot = Plot {
         id: ID.into(),
         title: FIGURE.title.into(),
-        description: "Left: the aggressive driver changes lanes several times as often as its neighbours. Right: the \
+        description:
+            "Left: the aggressive driver changes lanes several times as often as its neighbours. Right: the \
                       distances driven can hardly be told apart."
-            .into(),
+                .into(),
         columns: 2,
         panels: vec![
             panel("Lane changes", "lane changes Δl", CHANGES, 1.0),
@@ -249,9 +269,8 @@ fn claims(size: Size, runs: &[Piece], alone: &Piece) -> Vec<Claim> {
         100.0 * (all[0] / mean(&all[1..]) - 1.0)
     });
     let more = |k: usize| over(&|p: &Piece| last(p, CHANGES + k) - last(alone, CHANGES + k));
-    let (enlarged, changed) = runs
-        .iter()
-        .fold((0.0, 0.0), |(e, c), p| (e + p.columns[FACTS][1], c + p.columns[FACTS][2]));
+    let (enlarged, changed) =
+        runs.iter().fold((0.0, 0.0), |(e, c), p| (e + p.columns[FACTS][1], c + p.columns[FACTS][2]));
     let per_change = over(&|p: &Piece| slope_percent(&p.columns[LAST_CHANGES], &p.columns[LAST_DISTANCES]));
     let paper_end = until == 500.0;
     let scaled = if paper_end { String::new() } else { format!(" Only {until} s here.") };
@@ -268,7 +287,9 @@ fn claims(size: Size, runs: &[Piece], alone: &Piece) -> Vec<Claim> {
             "",
             Expected::About(3.0, 0.5),
             changes(1),
-            &format!("Nearest neighbour ahead in lane 2; tolerance: half a unit of the number printed.{scaled}"),
+            &format!(
+                "Nearest neighbour ahead in lane 2; tolerance: half a unit of the number printed.{scaled}"
+            ),
         )
         .or(behind, changes(2)),
         claim(
@@ -329,7 +350,10 @@ fn claims(size: Size, runs: &[Piece], alone: &Piece) -> Vec<Claim> {
             "",
             Expected::About(0.1, 0.011),
             Estimate::exact(fact(5).value),
-            format!("Rise of φ of the one passed in that step, mean of {} runs: p = 0.1, more or less one step of r.", runs.len()),
+            format!(
+                "Rise of φ of the one passed in that step, mean of {} runs: p = 0.1, more or less one step of r.",
+                runs.len()
+            ),
         ),
         Claim::new(
             ID,
@@ -337,7 +361,10 @@ fn claims(size: Size, runs: &[Piece], alone: &Piece) -> Vec<Claim> {
             "",
             Expected::MoreThan(0.0),
             Estimate::share((changed - enlarged) as usize, changed.max(1.0) as usize),
-            format!("All {changed} lane changes of {} runs, headway before the step against after it; Wilson's 95 % interval.", runs.len()),
+            format!(
+                "All {changed} lane changes of {} runs, headway before the step against after it; Wilson's 95 % interval.",
+                runs.len()
+            ),
         ),
         claim(
             "more lane changes only marginally raise the speed: gain for each lane change more",

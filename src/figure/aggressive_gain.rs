@@ -59,7 +59,8 @@ impl Point {
 
 fn points(size: Size) -> Vec<Point> {
     let lambdas: &[f64] = size.choose(&[1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0], &[2.0, 4.0]);
-    let shares: &[f64] = size.choose(&[2.0, 4.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0], &[10.0]);
+    let shares: &[f64] =
+        size.choose(&[2.0, 4.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0], &[10.0]);
     let counts: Vec<usize> = size.choose((1..=12).map(|k| 20 * k).collect(), vec![50, 100]);
     let lambdas = lambdas.iter().map(|&l| Point::Sensitivity(l));
     let shares = shares.iter().map(|&s| Point::Share(s));
@@ -78,7 +79,8 @@ fn run(size: Size, piece: usize) -> Piece {
         let scenario = point.scenario(size, seed);
         let (_, simulation) = measured(&scenario, &[]);
         let split = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
-            let each = (0..simulation.vehicles()).filter(|&j| (simulation.driver(j).sensitivity > 1.0) == aggressive);
+            let each = (0..simulation.vehicles())
+                .filter(|&j| (simulation.driver(j).sensitivity > 1.0) == aggressive);
             mean(&each.map(f).collect::<Vec<_>>())
         };
         let distance = |j: usize| simulation.distance(j);
@@ -124,7 +126,12 @@ impl Series {
         for ((name, suffix, unit, words), values) in names.into_iter().zip(&self.values) {
             let value = values.iter().map(|e| e.value).collect();
             let half = values.iter().map(|e| e.uncertainty).collect();
-            columns.push(Column::float(format!("{name}_mean{suffix}"), unit, format!("{words}, mean of the runs"), value));
+            columns.push(Column::float(
+                format!("{name}_mean{suffix}"),
+                unit,
+                format!("{words}, mean of the runs"),
+                value,
+            ));
             let meaning = format!("{words}, half-width of the 95 % interval of the mean");
             columns.push(Column::float(format!("{name}_half_interval{suffix}"), unit, meaning, half));
         }
@@ -147,8 +154,8 @@ impl Series {
             x: x.clone(),
             y: Axis::new("gain (%)"),
             layers: vec![
-                Layer::Rule { name: "2 %".into(), vertical: false, at: 2.0 },
-                Layer::Rule { name: String::new(), vertical: false, at: 0.0 },
+                Layer::Rule { name: "2 %".into(), vertical: false, at: 2.0, left: false },
+                Layer::Rule { name: String::new(), vertical: false, at: 0.0, left: false },
                 self.points(0, "", 0),
             ],
         };
@@ -169,10 +176,15 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
         Series::of(size, pieces, |p| if let Point::Vehicles(n) = p { Some(n as f64) } else { None });
     let base = Point::Sensitivity(2.0).scenario(size, 1);
     let how = |what: &str| format!("{} runs for each {what}, seeds 1 to {0}", runs(size));
-    let lambda_column = Column::float("sensitivity_per_s", "1/s", "λ of the aggressive driver", lambda.x.clone());
+    let lambda_column =
+        Column::float("sensitivity_per_s", "1/s", "λ of the aggressive driver", lambda.x.clone());
     let share_column = Column::float("share_percent", "%", "share of aggressive drivers", share.x.clone());
-    let count_column =
-        Column::whole("vehicles", "", "N on two lanes of 1 km", density.x.iter().map(|&n| n as u64).collect());
+    let count_column = Column::whole(
+        "vehicles",
+        "",
+        "N on two lanes of 1 km",
+        density.x.iter().map(|&n| n as u64).collect(),
+    );
     let tables = vec![
         FigureTable::summary("aggressive-gain-sensitivity", lambda.table(lambda_column), &base, how("λ")),
         FigureTable::summary("aggressive-gain-share", share.table(share_column), &base, how("share")),

@@ -58,8 +58,10 @@ fn run(size: Size, piece: usize) -> Piece {
         let mut values = vec![Vec::new(); 3];
         for seed in 1..=runs(size) {
             let scenario = scenario(size, r, p, seed);
-            let (tables, _) =
-                measured(&scenario, &[Measurement::Lanes { every: 1.0 }, Measurement::Drivers { every: 60.0 }]);
+            let (tables, _) = measured(
+                &scenario,
+                &[Measurement::Lanes { every: 1.0 }, Measurement::Drivers { every: 60.0 }],
+            );
             let time = column(&tables[0], "time_s");
             let start = time.iter().position(|&t| t >= 60.0).expect("the run is longer");
             values[1].push(mean(&column(&tables[0], "imbalance")[start..]));
@@ -70,7 +72,8 @@ fn run(size: Size, piece: usize) -> Piece {
             let distance = column(&tables[1], "distance_per_vehicle_m");
             let at = column(&tables[1], "time_s");
             let (a, b) = (1, at.len() - 1);
-            let speed = if b > a { (distance[b] - distance[a]) / (at[b] - at[a]) } else { distance[b] / at[b] };
+            let speed =
+                if b > a { (distance[b] - distance[a]) / (at[b] - at[a]) } else { distance[b] / at[b] };
             values[0].push(speed * n / scenario.length);
         }
         columns.extend(values);
@@ -82,7 +85,10 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
     let rates = rates(size);
     let k = rates.len();
     let each = |which: usize| -> Vec<Estimate> {
-        pieces.iter().flat_map(|piece| (0..k).map(move |p| Estimate::mean(&piece.columns[3 * p + which]))).collect()
+        pieces
+            .iter()
+            .flat_map(|piece| (0..k).map(move |p| Estimate::mean(&piece.columns[3 * p + which])))
+            .collect()
     };
     let quantities = [
         ("flow", "_veh_per_s", "veh/s", "flow, mean speed times density, both lanes"),
@@ -103,7 +109,8 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
         let meaning = format!("{words}: half-width of the 95 % interval of the mean");
         columns.push(Column::float(format!("{name}_half_interval{suffix}"), unit, meaning, halves));
     }
-    let how = format!("{} runs for each pair of r and p, seeds 1 to {0}; means over 60 s to the end", runs(size));
+    let how =
+        format!("{} runs for each pair of r and p, seeds 1 to {0}; means over 60 s to the end", runs(size));
     let base = scenario(size, 0.1, 0.2, 1);
     let tables = vec![FigureTable::summary("frustration-flow", Table::new(columns), &base, how)];
 
@@ -114,7 +121,16 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         // Rows of the map are values of p.
         let turned = (0..k).flat_map(|p| (0..k).map(move |r| r * k + p)).map(|i| values[i]).collect();
-        let map = Layer::Map { name: name.into(), width: k, x: ends, y: ends, values: turned, range: (low, high.max(low + 1e-9)), middle: None };
+        let map = Layer::Map {
+            name: name.into(),
+            width: k,
+            x: ends,
+            y: ends,
+            values: turned,
+            range: (low, high.max(low + 1e-9)),
+            middle: None,
+            signed_log: false,
+        };
         Panel {
             title: title.into(),
             x: Axis::from_to("log₁₀ r (1/s)", ends.0, ends.1),
@@ -144,6 +160,10 @@ fn claims(size: Size, flows: &[Estimate]) -> Vec<Claim> {
         "%",
         Expected::AtMost(10.0),
         Estimate::new(100.0 * (best / worst - 1.0), 100.0 * half / worst),
-        format!("{} pairs of r and p, {} runs each from seed 1; hardly: at most 10 %.", flows.len(), runs(size)),
+        format!(
+            "{} pairs of r and p, {} runs each from seed 1; hardly: at most 10 %.",
+            flows.len(),
+            runs(size)
+        ),
     )]
 }

@@ -64,7 +64,12 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
     let tables = vec![
         FigureTable::summary("fundamental-diagram-speed", law, &base, "the formula"),
         FigureTable::summary("fundamental-diagram-flow", diagram, &base, "the formula"),
-        FigureTable::summary("fundamental-diagram-rings", points, &base, "one run for each number of vehicles"),
+        FigureTable::summary(
+            "fundamental-diagram-rings",
+            points,
+            &base,
+            "one run for each number of vehicles",
+        ),
     ];
     let plot = Plot {
         id: ID.into(),
@@ -83,8 +88,8 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
                 x: Axis::from_to("headway (m)", 0.0, 200.0),
                 y: Axis::from_to("speed (m/s)", 0.0, 42.0),
                 layers: vec![
-                    Layer::Rule { name: "V".into(), vertical: false, at: driver.max_speed },
-                    Layer::Rule { name: "d".into(), vertical: true, at: driver.min_headway },
+                    Layer::Rule { name: "V".into(), vertical: false, at: driver.max_speed, left: false },
+                    Layer::Rule { name: "d".into(), vertical: true, at: driver.min_headway, left: false },
                     Layer::Curve { name: String::new(), style: 0, x: headways, y: speeds },
                 ],
             },
@@ -93,7 +98,7 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
                 x: Axis::from_to("density (veh/km)", 0.0, 150.0),
                 y: Axis::from_to("flow (veh/h)", 0.0, 2200.0),
                 layers: vec![
-                    Layer::Rule { name: "ρ*".into(), vertical: true, at: top.density * 1000.0 },
+                    Layer::Rule { name: "ρ*".into(), vertical: true, at: top.density * 1000.0, left: false },
                     Layer::Curve { name: "equilibrium".into(), style: 0, x: densities, y: flows },
                     Layer::Points {
                         name: "rings that were run".into(),
@@ -106,9 +111,7 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
             },
         ],
     };
-    let flow_at = |n: usize| {
-        counts.iter().position(|&c| c == n).map_or(f64::NAN, |k| measured_flow[k])
-    };
+    let flow_at = |n: usize| counts.iter().position(|&c| c == n).map_or(f64::NAN, |k| measured_flow[k]);
     Outcome { tables, plot, claims: claims(&driver, &flow_at) }
 }
 
@@ -117,7 +120,8 @@ fn claims(driver: &Driver, flow_at: &dyn Fn(usize) -> f64) -> Vec<Claim> {
     let about = |claim: &str, unit, paper: f64, tolerance: f64, ours: f64, method: &str| {
         Claim::new(ID, claim, unit, Expected::About(paper, tolerance), Estimate::exact(ours), method)
     };
-    let first_jam = (1..200_u32).find(|&n| driver.flow(f64::from(n) / 1000.0) <= 0.0).map_or(f64::NAN, f64::from);
+    let first_jam =
+        (1..200_u32).find(|&n| driver.flow(f64::from(n) / 1000.0) <= 0.0).map_or(f64::NAN, f64::from);
     vec![
         about(
             "largest equilibrium flow q*",

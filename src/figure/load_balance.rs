@@ -127,8 +127,18 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
     let (paper, tenth) = (Group::of(paper), Group::of(tenth));
     let how = |(r, p): (f64, f64)| format!("{} runs, seeds 1 to {0}, r = {r} /s, p = {p}", runs(size));
     let tables = vec![
-        FigureTable::summary("load-balance", paper.table(), &scenario(size, PATIENCE[0], 1), how(PATIENCE[0])),
-        FigureTable::summary("load-balance-tenth", tenth.table(), &scenario(size, PATIENCE[1], 1), how(PATIENCE[1])),
+        FigureTable::summary(
+            "load-balance",
+            paper.table(),
+            &scenario(size, PATIENCE[0], 1),
+            how(PATIENCE[0]),
+        ),
+        FigureTable::summary(
+            "load-balance-tenth",
+            tenth.table(),
+            &scenario(size, PATIENCE[1], 1),
+            how(PATIENCE[1]),
+        ),
     ];
     let plot = Plot {
         id: ID.into(),
@@ -141,20 +151,39 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
         ),
         columns: 2,
         panels: vec![
-            panel("Difference between the lanes", "ΔN (vehicles)", [&paper, &tenth], true, random_imbalance(N)),
-            panel("Flow at L/2, both lanes", "flow (veh/s)", [&paper, &tenth], false, 2.0 * Driver::default().flow(0.025)),
+            panel(
+                "Difference between the lanes",
+                "ΔN (vehicles)",
+                [&paper, &tenth],
+                true,
+                random_imbalance(N),
+            ),
+            panel(
+                "Flow at L/2, both lanes",
+                "flow (veh/s)",
+                [&paper, &tenth],
+                false,
+                2.0 * Driver::default().flow(0.025),
+            ),
         ],
     };
     Outcome { tables, plot, claims: claims(size, &paper, &tenth) }
 }
 
 fn panel(title: &str, label: &str, groups: [&Group; 2], imbalance: bool, rule: f64) -> Panel {
-    let name = if imbalance { "chance" } else { "equilibrium, 25 in each lane" };
-    let mut layers = vec![Layer::Rule { name: name.into(), vertical: false, at: rule }];
+    let name = if imbalance { "chance" } else { "equilibrium" };
+    let mut layers =
+        vec![Layer::Curve { name: name.into(), style: 5, x: vec![0.0, 100.0], y: vec![rule, rule] }];
     for (style, group) in groups.into_iter().enumerate() {
         let spread = Spread::of(if imbalance { &group.imbalance } else { &group.flow });
         let x = group.time.to_vec();
-        layers.push(Layer::Band { name: String::new(), style, x: x.clone(), low: spread.low(), high: spread.high() });
+        layers.push(Layer::Band {
+            name: String::new(),
+            style,
+            x: x.clone(),
+            low: spread.low(),
+            high: spread.high(),
+        });
         let (r, p) = PATIENCE[style];
         layers.push(Layer::Curve { name: format!("r = {r}, p = {p}"), style, x, y: spread.mean });
     }
@@ -189,7 +218,13 @@ fn claims(size: Size, paper: &Group, tenth: &Group) -> Vec<Claim> {
             at_30,
             "Balanced: a quarter of the 50 at the start, or less.",
         ),
-        claim("ΔN is about 5 at 30 s", "", Expected::About(5.0, 1.0), at_30, "Tolerance 1, read from “about”."),
+        claim(
+            "ΔN is about 5 at 30 s",
+            "",
+            Expected::About(5.0, 1.0),
+            at_30,
+            "Tolerance 1, read from “about”.",
+        ),
         claim(
             "ΔN falls to about 5 within about 30 s: time to 7 or fewer",
             "s",
@@ -259,7 +294,8 @@ fn claims(size: Size, paper: &Group, tenth: &Group) -> Vec<Claim> {
 
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let (mean_a, mean_b) = (mean(a), mean(b));
-    let sum = |f: &dyn Fn(f64, f64) -> f64| a.iter().zip(b).map(|(&a, &b)| f(a - mean_a, b - mean_b)).sum::<f64>();
+    let sum =
+        |f: &dyn Fn(f64, f64) -> f64| a.iter().zip(b).map(|(&a, &b)| f(a - mean_a, b - mean_b)).sum::<f64>();
     sum(&|a, b| a * b) / (sum(&|a, _| a * a) * sum(&|_, b| b * b)).sqrt()
 }
 

@@ -12,6 +12,7 @@
 
 mod aggressive_driver;
 mod aggressive_gain;
+mod cyclic;
 mod frustration_flow;
 mod fundamental_diagram;
 mod load_balance;
@@ -65,7 +66,8 @@ impl Piece {
 
     /// Reads such an array.
     pub fn from_flat(flat: &[f64]) -> Result<Self, Invalid> {
-        let wrong = || Invalid::new("piece", "an array of another form", "an array that a piece of a figure gave");
+        let wrong =
+            || Invalid::new("piece", "an array of another form", "an array that a piece of a figure gave");
         let (&count, rest) = flat.split_first().ok_or_else(wrong)?;
         let count = count as usize;
         if rest.len() < count {
@@ -234,19 +236,24 @@ fn nudged(reaction_time: f64, metres: f64, until: f64) -> Scenario {
     scenario
 }
 
-/// A run of a valid scenario to its end, with probes.
-fn run_with(scenario: &Scenario, probes: &mut [Box<dyn Probe>]) -> Simulation {
-    let mut simulation = Simulation::new(scenario).expect("scenarios of figures are valid");
-    measure(&mut simulation, probes, &mut |_| true);
-    simulation
-}
-
-/// The same with measurements: their tables, and the state at the end.
+/// A run of a valid scenario to its end, with measurements: their tables, and the state at the end.
 fn measured(scenario: &Scenario, measurements: &[Measurement]) -> (Vec<Table>, Simulation) {
     let probe = |m: &Measurement| m.probe(scenario).expect("measurements of figures are valid");
     let mut probes: Vec<_> = measurements.iter().map(probe).collect();
-    let simulation = run_with(scenario, &mut probes);
+    let mut simulation = Simulation::new(scenario).expect("scenarios of figures are valid");
+    measure(&mut simulation, &mut probes, &mut |_| true);
     (probes.iter().map(|p| p.table()).collect(), simulation)
+}
+
+/// A run with one probe of the figure's own.
+fn observed(scenario: &Scenario, probe: &mut dyn Probe) -> Simulation {
+    let mut simulation = Simulation::new(scenario).expect("scenarios of figures are valid");
+    probe.observe(&simulation);
+    while !simulation.is_finished() {
+        simulation.step();
+        probe.observe(&simulation);
+    }
+    simulation
 }
 
 /// The numbers of a table, column by column; text columns are left out.
@@ -263,9 +270,12 @@ fn numbers(table: &Table) -> Vec<Vec<f64>> {
 fn refilled(scenario: &Scenario, measurement: &Measurement, columns: &[Vec<f64>]) -> Table {
     let empty = measurement.probe(scenario).expect("measurements of figures are valid").table();
     let fill = |(column, values): (&Column, &Vec<f64>)| match &column.values {
-        Values::Whole(_) => {
-            Column::whole(column.name.clone(), column.unit, column.meaning.clone(), values.iter().map(|&v| v as u64).collect())
-        }
+        Values::Whole(_) => Column::whole(
+            column.name.clone(),
+            column.unit,
+            column.meaning.clone(),
+            values.iter().map(|&v| v as u64).collect(),
+        ),
         _ => Column::float(column.name.clone(), column.unit, column.meaning.clone(), values.clone()),
     };
     Table::new(empty.columns().iter().zip(columns).map(fill).collect())
@@ -324,7 +334,12 @@ impl Spread {
             ("half_interval", "half-width of the 95 % confidence interval of the mean", &self.half),
         ]
         .map(|(which, words, values)| {
-            Column::float(format!("{name}_{which}{suffix}"), unit, format!("{meaning}: {words}"), values.clone())
+            Column::float(
+                format!("{name}_{which}{suffix}"),
+                unit,
+                format!("{meaning}: {words}"),
+                values.clone(),
+            )
         })
         .into()
     }
