@@ -14,7 +14,7 @@
 //! it is *not determined by the paper*.
 
 use serde::{Serialize, Serializer};
-use std::fmt;
+use std::fmt::{self, Write as _};
 
 /// A measured value with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -218,14 +218,14 @@ impl Claim {
             return text;
         }
         let met = self.readings.iter().filter(|r| self.expected.is_met_by(r.ours)).count();
-        text += &format!(" Readings tried: {}, of which {met} meet the claim.", self.readings.len());
+        let _ = write!(text, " Readings tried: {}, of which {met} meet the claim.", self.readings.len());
         if others.len() <= 6 {
             let each = |r: &Reading| format!("{}: {}", r.choice, short(r.ours.value));
-            text += &format!(" Others: {}.", others.iter().map(each).collect::<Vec<_>>().join("; "));
+            let _ = write!(text, " Others: {}.", others.iter().map(each).collect::<Vec<_>>().join("; "));
         } else {
             let values = || self.readings.iter().map(|r| r.ours.value);
             let (low, high) = (values().fold(f64::NAN, f64::min), values().fold(f64::NAN, f64::max));
-            text += &format!(" They range from {} to {}.", short(low), short(high));
+            let _ = write!(text, " They range from {} to {}.", short(low), short(high));
         }
         text
     }
@@ -292,17 +292,18 @@ pub fn to_text(claims: &[Claim]) -> String {
     for claim in claims {
         if claim.figure != figure {
             figure = claim.figure;
-            out += &format!("{}{figure}\n", if out.is_empty() { "" } else { "\n" });
+            let _ = writeln!(out, "{}{figure}", if out.is_empty() { "" } else { "\n" });
         }
-        out += &format!("  {:<11} {}\n", Short(claim.verdict()), claim.claim);
-        out += &format!("  {:<11} paper: {}   ours: {}\n", "", claim.paper(), claim.ours_in_words());
+        let _ = writeln!(out, "  {:<11} {}", Short(claim.verdict()), claim.claim);
+        let _ = writeln!(out, "  {:<11} paper: {}   ours: {}", "", claim.paper(), claim.ours_in_words());
         for line in wrapped(&claim.method_in_words(), 96) {
-            out += &format!("  {:<11} {line}\n", "");
+            let _ = writeln!(out, "  {:<11} {line}", "");
         }
     }
     let count = |v| claims.iter().filter(|c| c.verdict() == v).count();
-    out += &format!(
-        "\n{} claims: {} agree, {} differ, {} not determined by the paper (“open” above)\n",
+    let _ = writeln!(
+        out,
+        "\n{} claims: {} agree, {} differ, {} not determined by the paper (“open” above)",
         claims.len(),
         count(Verdict::Agrees),
         count(Verdict::Differs),
@@ -342,8 +343,9 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 pub fn to_markdown(claims: &[Claim]) -> String {
     let mut out = String::from("| claim | paper | ours | verdict | how |\n|---|---|---|---|---|\n");
     for claim in claims {
-        out += &format!(
-            "| {} | {} | {} | {} | {} |\n",
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} | {} |",
             claim.claim,
             claim.paper(),
             claim.ours_in_words(),

@@ -92,7 +92,7 @@ fn critical_steps(vehicles: usize, until: f64) -> f64 {
     };
     let (mut fades, mut growing) = (20, 160);
     while growing - fades > 1 {
-        let middle = (fades + growing) / 2;
+        let middle = u32::midpoint(fades, growing);
         if grows(middle) { growing = middle } else { fades = middle }
     }
     f64::from(fades) + 0.5
