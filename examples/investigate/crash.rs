@@ -91,11 +91,30 @@ pub fn main() {
         count(&|r| literal(&r.0) && fits_75(r.1.0) && fits_80(r.1.1))
     );
     println!(
-        "\nReadings with dt = 0.01 s, the displaced past and simultaneous update that meet the first, and what they give for the second:\n"
+        "\nFiner over the displacement, from 0.5 to 10 m by 0.05 m, all else literal; those that meet the first:\n"
     );
-    println!("| displacement | steps added | at 0.75 s (s) | at 0.8 s (s) |\n|---|---|---|---|");
-    for (r, (a, b)) in results.iter().filter(|r| literal(&r.0) && fits_75(r.1.0)) {
-        println!("| {} m | {:+} | {} | {} |", r.displacement, r.extra_steps, words(*a), words(*b));
+    println!(
+        "| displacement | steps added | at 0.75 s (s) | at 0.8 s (s) | round trips at 0.8 s |\n|---|---|---|---|---|"
+    );
+    let fine: Vec<Reading> = (10..=200)
+        .flat_map(|k| {
+            [-1, 0, 1].map(|extra_steps| Reading {
+                displacement: f64::from(k) * 0.05,
+                extra_steps,
+                ..LITERAL
+            })
+        })
+        .collect();
+    let results_fine: Vec<_> = fine.par_iter().map(|&r| (r, both(r))).collect();
+    for (r, (a, b)) in results_fine.iter().filter(|r| fits_75(r.1.0)) {
+        let trips = b.map_or_else(|| "none".into(), |b| format!("{:.2}", b / CYCLE));
+        println!(
+            "| {:.2} m | {:+} | {} | {} | {trips} |",
+            r.displacement,
+            r.extra_steps,
+            words(*a),
+            words(*b)
+        );
     }
     println!("\nReadings that meet both (at most 20 shown):\n");
     println!(
