@@ -123,11 +123,9 @@ pub fn presets() -> Vec<Preset> {
 /// The preset of that name.
 pub fn preset(name: &str) -> Result<Preset, Invalid> {
     let mut all = presets();
-    match all.iter().position(|p| p.name == name) {
-        Some(k) => Ok(all.swap_remove(k)),
-        None => {
-            let names: Vec<_> = all.iter().map(|p| p.name).collect();
-            Err(Invalid::new("preset", quoted(name), names.join(", ")))
-        }
+    if let Some(k) = all.iter().position(|p| p.name == name) {
+        return Ok(all.swap_remove(k));
     }
+    let names: Vec<_> = all.iter().map(|p| p.name).collect();
+    Err(Invalid::new("preset", quoted(name), names.join(", ")))
 }
