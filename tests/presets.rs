@@ -4,6 +4,7 @@ mod common;
 
 use common::theory;
 use ringroad::preset::{preset, presets};
+use ringroad::scenario::Scenario;
 use ringroad::simulation::Simulation;
 
 fn end(name: &str) -> Simulation {
@@ -46,6 +47,41 @@ fn the_marginal_ring_doubles_in_twenty_hours() {
     for q in 2..=10 {
         assert!(theory::growth(50, q, 68, 0.01) < 0.0, "only the longest wave grows, not mode {q}");
     }
+}
+
+/// "With 126 the ring is still stable, with 127 it is not": 50 steps of delay.
+#[test]
+fn the_stable_ring_holds_126_vehicles() {
+    assert_eq!(preset("stable").unwrap().scenario.driver.reaction_time, 0.5);
+    assert!(theory::critical_steps(126, 0.01) > 50.0);
+    assert!(theory::critical_steps(127, 0.01) < 50.0);
+}
+
+/// "Lower r and p: the lanes balance later, and with fewer lane changes", in the mean over ten seeds.
+#[test]
+fn calmer_drivers_balance_later_with_fewer_changes() {
+    let mean = |frustration: Option<f64>| {
+        let (mut time, mut changes) = (0.0, 0.0);
+        for seed in 1..=10 {
+            let mut scenario = Scenario { seed, ..preset("load-balance").unwrap().scenario };
+            if let Some(value) = frustration {
+                scenario.driver.frustration_rate = value;
+                scenario.driver.pass_frustration = value;
+            }
+            let mut simulation = Simulation::new(&scenario).unwrap();
+            let imbalance = |s: &Simulation| s.vehicles_per_lane()[0].abs_diff(s.vehicles_per_lane()[1]);
+            while imbalance(&simulation) > 10 && !simulation.is_finished() {
+                simulation.step();
+            }
+            time += simulation.time() / 10.0;
+            simulation.run_to(u64::MAX);
+            changes += (0..50).map(|j| f64::from(simulation.lane_changes(j))).sum::<f64>() / 10.0;
+        }
+        (time, changes)
+    };
+    let (as_it_is, calm) = (mean(None), mean(Some(0.02)));
+    println!("time to balance (s), lane changes: {as_it_is:?}, calm {calm:?}");
+    assert!(calm.0 > 1.5 * as_it_is.0 && calm.1 < 0.75 * as_it_is.1, "{as_it_is:?} {calm:?}");
 }
 
 #[test]
