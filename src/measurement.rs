@@ -226,7 +226,7 @@ impl Measurement {
             Self::FlowMap { every, bins: 100, window: 18.63 },
             Self::Flow { every, window: 5.0, at: None },
             Self::Modes { every, modes: None, lane: 1 },
-            Self::Growth { every: 0.5, modes: None, lane: 1, from: None, smallest: 1e-9, nonlinearity: 0.01 },
+            Self::Growth { every: 0.5, modes: None, lane: 1, from: None, smallest: 1e-8, nonlinearity: 0.01 },
             Self::CyclicGrowth { vehicle: 1, periods: 5 },
             Self::Equilibrium { every },
             Self::Events {},

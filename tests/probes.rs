@@ -267,12 +267,13 @@ fn modes_have_the_amplitudes_of_a_nudge() {
     assert!(quiet.floats("largest_deviation_m").unwrap().iter().all(|&x| x < 1e-14));
 }
 
-/// σ_q of z^{m+1} = z^m + dt·d_q, growing and decaying, mode by mode.
+/// σ_q of z^{m+1} = z^m + dt·d_q, growing and decaying, mode by mode: within 1 % or three standard errors.
 #[test]
 fn growth_rates_are_those_of_the_difference_equation() {
-    for (reaction_time, m) in [(0.3, 30), (0.75, 75)] {
-        let scenario = with_actions(delayed(reaction_time, 500.0), &["at=0:1:nudge=0.000001"]);
-        let t = table(&scenario, r#"{"table":"growth","smallest":1e-10,"nonlinearity":1e-4}"#);
+    for k in 0..=16 {
+        let (reaction_time, m) = (0.05 * f64::from(k), 5 * k);
+        let scenario = with_actions(delayed(reaction_time, 1000.0), &["at=0:1:nudge=0.0001"]);
+        let t = table(&scenario, r#"{"table":"growth","nonlinearity":1e-4}"#);
         let (rates, errors) =
             (t.floats("growth_rate_per_s").unwrap(), t.floats("standard_error_per_s").unwrap());
         for q in 1..=10 {
@@ -280,14 +281,14 @@ fn growth_rates_are_those_of_the_difference_equation() {
             let (rate, error) = (rates[q - 1], errors[q - 1]);
             let close = (rate / predicted - 1.0).abs() < 0.01 || (rate - predicted).abs() < 3.0 * error;
             assert!(close, "Δ = {reaction_time} s, mode {q}: {rate} ± {error}, theory {predicted}");
-            assert!(error < 0.05 * rate.abs(), "mode {q}: {rate} ± {error}");
+            assert!(error < 0.1 * rate.abs(), "Δ = {reaction_time} s, mode {q}: {rate} ± {error}");
         }
     }
 }
 
 #[test]
 fn a_disturbed_lane_ends_the_linear_window() {
-    let quiet = with_actions(delayed(0.0, 60.0), &["at=0:1:nudge=0.000001"]);
+    let quiet = with_actions(delayed(0.0, 60.0), &["at=0:1:nudge=0.0001"]);
     let ends = |t: &Table| match &t.columns().last().unwrap().values {
         Values::Text(words) => words[0].clone(),
         other => panic!("{other:?}"),
@@ -297,7 +298,7 @@ fn a_disturbed_lane_ends_the_linear_window() {
         (undisturbed.floats("to_s").unwrap()[0], ends(&undisturbed).as_str()),
         (60.0, "end of the run")
     );
-    for action in ["at=30:7:nudge=0.000001", "at=30:7:brake=0.1", "at=30:all:reaction-time=0.5"] {
+    for action in ["at=30:7:nudge=0.0001", "at=30:7:brake=0.1", "at=30:all:reaction-time=0.5"] {
         let mut disturbed = quiet.clone();
         disturbed.actions.push(action.parse().unwrap());
         let t = table(&disturbed, r#"{"table":"growth","modes":1}"#);
