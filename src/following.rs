@@ -168,37 +168,29 @@ kernel! {
 }
 
 kernel! {
-    /// Positions: x += v·dt.
-    fn drive(old: &[f64], speed: &[f64], dt: f64, new: &mut [f64]) {
+    /// Positions: x += v·dt. `extremes` gets the smallest and the largest of the first `vehicles` speeds, which does not
+    /// depend on the order of comparisons.
+    fn drive(old: &[f64], speed: &[f64], dt: f64, vehicles: usize, new: &mut [f64], extremes: &mut [f64; 2]) {
+        let (mut least, mut most) = ([f64::INFINITY; CHUNK], [f64::NEG_INFINITY; CHUNK]);
         for start in (0..speed.len()).step_by(CHUNK) {
             let (old, speed) = (chunk(old, start), chunk(speed, start));
             let new = chunk_mut(new, start);
             for j in 0..CHUNK {
                 new[j] = old[j] + speed[j] * dt;
             }
-        }
-    }
-}
-
-kernel! {
-    /// Smallest and largest of some numbers; exact, in whatever order they are compared.
-    fn extremes(values: &[f64], found: &mut [f64; 2]) {
-        let (mut least, mut most) = ([f64::INFINITY; CHUNK], [f64::NEG_INFINITY; CHUNK]);
-        let chunks = values.chunks_exact(CHUNK);
-        let rest = chunks.remainder();
-        let mut take = |j: usize, v: f64| {
-            least[j] = if v < least[j] { v } else { least[j] };
-            most[j] = if v > most[j] { v } else { most[j] };
-        };
-        for chunk in chunks {
-            for j in 0..CHUNK {
-                take(j, chunk[j]);
+            if start + CHUNK <= vehicles {
+                for j in 0..CHUNK {
+                    least[j] = if speed[j] < least[j] { speed[j] } else { least[j] };
+                    most[j] = if speed[j] > most[j] { speed[j] } else { most[j] };
+                }
+            } else {
+                for v in &speed[..vehicles - start] {
+                    least[0] = least[0].min(*v);
+                    most[0] = most[0].max(*v);
+                }
             }
         }
-        for (j, &v) in rest.iter().enumerate() {
-            take(j, v);
-        }
-        *found = [least.into_iter().fold(f64::INFINITY, f64::min), most.into_iter().fold(f64::NEG_INFINITY, f64::max)];
+        *extremes = [least.into_iter().fold(f64::INFINITY, f64::min), most.into_iter().fold(f64::NEG_INFINITY, f64::max)];
     }
 }
 
@@ -279,13 +271,6 @@ impl Following {
         self.state.speed[j] = speed;
     }
 
-    /// How much faster the fastest of the first `vehicles` is than the slowest, m/s.
-    pub fn spread(&self, vehicles: usize) -> f64 {
-        let mut found = [0.0; 2];
-        extremes(self.width, &self.state.speed[..vehicles], &mut found);
-        found[1] - found[0]
-    }
-
     /// What everyone sees, each with a delay of their own; all slices padded.
     pub fn see_apart(
         &self,
@@ -299,9 +284,12 @@ impl Following {
         see_apart(self.width, offset, leaders, delays, data, geometry, scene);
     }
 
-    /// New displacements after a step of `dt` seconds.
-    pub fn drive(&self, old: &[f64], dt: f64, new: &mut [f64]) {
-        drive(self.width, old, &self.state.speed, dt, new);
+    /// New displacements after a step of `dt` seconds; how far the fastest of the first `vehicles` has gone ahead of the
+    /// slowest, m.
+    pub fn drive(&self, old: &[f64], dt: f64, vehicles: usize, new: &mut [f64]) -> f64 {
+        let mut extremes = [0.0; 2];
+        drive(self.width, old, &self.state.speed, dt, vehicles, new, &mut extremes);
+        (extremes[1] - extremes[0]) * dt
     }
 
     /// New speeds where the leader of j is j + 1, and the displacements that all see are in one row `seen`, in which

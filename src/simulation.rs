@@ -291,9 +291,8 @@ impl<S: Sampler> Simulation<S> {
 
     /// Stage 3: positions.
     fn forward(&mut self) {
-        self.odometer += self.following.spread(self.drivers.len()) * self.scenario.time_step;
         let (old, new) = self.history.advance();
-        self.following.drive(old, self.scenario.time_step, new);
+        self.odometer += self.following.drive(old, self.scenario.time_step, self.drivers.len(), new);
         self.history.close();
     }
 
@@ -308,12 +307,11 @@ impl<S: Sampler> Simulation<S> {
             }
             common => {
                 let leaders = self.ring.leaders();
-                match common {
-                    Some(delay) => see_alike(offset, leaders, self.history.seen(delay), &mut self.scene),
-                    None => {
-                        let delays = self.delays.all();
-                        self.following.see_apart(offset, leaders, delays, &self.history, &mut self.scene);
-                    }
+                if let Some(delay) = common {
+                    see_alike(offset, leaders, self.history.seen(delay), &mut self.scene);
+                } else {
+                    let delays = self.delays.all();
+                    self.following.see_apart(offset, leaders, delays, &self.history, &mut self.scene);
                 }
                 self.following.respond(&self.scene, refresh);
             }
