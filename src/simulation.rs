@@ -196,6 +196,10 @@ impl<S: Sampler> Simulation<S> {
         let vehicle = self.ring.beside(j, side).vehicle;
         (vehicle != NONE).then_some(vehicle as usize)
     }
+    /// Displacements since t = 0, nudges after it included, m.
+    pub fn displacements(&self) -> &[f64] {
+        &self.history.now()[..self.vehicles()]
+    }
     /// Position without wrapping: that at the start plus all displacements, m.
     pub fn unwrapped_position(&self, j: usize) -> f64 {
         self.ring.start(j) + self.history.now()[j]
