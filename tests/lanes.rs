@@ -60,6 +60,7 @@ fn compare<S: Sampler>(fast: &Simulation<S>, twin: &Twin<S>) {
 
 /// Runs both to the end; `live` are actions made at their time instead of known beforehand.
 fn run<S: Sampler>(scenario: &Scenario, live: &[Action], seen: &mut Seen) {
+    if std::env::var("TRACE").is_ok() { eprintln!("TRACE {} live {:?}", scenario.to_json(), live.iter().map(ToString::to_string).collect::<Vec<_>>()); }
     let mut fast = Simulation::<S>::with_sampler(scenario).unwrap();
     let mut twin = Twin::<S>::new(scenario);
     seen.scenarios += 1;
@@ -100,7 +101,7 @@ fn runner(cases: u32, seed: u64) -> TestRunner {
         cases,
         rng_seed: RngSeed::Fixed(seed),
         failure_persistence: None,
-        max_shrink_iters: 2000,
+        max_shrink_iters: 300,
         ..Config::default()
     })
 }
