@@ -367,12 +367,27 @@ impl Ring {
 
     /// [`Self::follow_motion`] for one vehicle and side; the distance to the nearest vehicle there, ahead or behind.
     fn follow_side(&mut self, j: usize, side: Side, s: &[f64], passes: &mut Vec<Pass>) -> f64 {
-        let Some(mut i) = self.beside[j][side as usize].vehicle() else { return f64::INFINITY };
-        let mut distance = self.beside[j][side as usize].distance(j, s);
+        let pass = |i: usize| passes.push(Pass { passer: i as u32, passed: j as u32 });
+        let Some((found, nearest)) = self.look_beside(j, side, s, pass) else { return f64::INFINITY };
+        self.beside[j][side as usize] = found;
+        nearest
+    }
+
+    /// The next vehicle ahead in the adjacent lane at the displacements `s`, and the distance to the nearest vehicle
+    /// there, ahead or behind. Starts from what was known last, and tells who has come past j since then.
+    fn look_beside(
+        &self,
+        j: usize,
+        side: Side,
+        s: &[f64],
+        mut pass: impl FnMut(usize),
+    ) -> Option<(Beside, f64)> {
+        let mut found = self.beside(j, side);
+        let mut i = found.vehicle()?;
+        let mut distance = found.distance(j, s);
         if distance <= 0.0 {
             // j has passed i, and perhaps more.
-            let found = self.walk_ahead(j, self.ahead(i), distance + self.headway(i, s), s);
-            self.beside[j][side as usize] = found;
+            found = self.walk_ahead(j, self.ahead(i), distance + self.headway(i, s), s);
             i = found.vehicle as usize;
             distance = found.distance(j, s);
         }
@@ -380,16 +395,24 @@ impl Ring {
             let follower = self.behind(i);
             let about = distance - self.headway(follower, s);
             if about <= -NEAR {
-                return distance.min(-about);
+                return Some((found, distance.min(-about)));
             }
             // The one behind i was at most alongside; now it is looked at exactly.
-            let Some(offset) = self.offset_if_ahead(follower, j, s, about) else { return 0.0 };
-            let found = Beside { vehicle: follower as u32, offset };
-            self.beside[j][side as usize] = found;
-            passes.push(Pass { passer: follower as u32, passed: j as u32 });
+            let Some(offset) = self.offset_if_ahead(follower, j, s, about) else { return Some((found, 0.0)) };
+            found = Beside { vehicle: follower as u32, offset };
+            pass(follower);
             i = follower;
             distance = found.distance(j, s);
         }
+    }
+
+    /// The next vehicle ahead in the adjacent lane on that side, wherever the vehicles have moved since the last
+    /// [`Self::follow_motion`]; none in an empty lane or where there is no lane.
+    pub(crate) fn adjacent(&self, j: usize, side: Side, s: &[f64]) -> Option<usize> {
+        if self.beside.is_empty() {
+            return None;
+        }
+        self.look_beside(j, side, s, |_| {}).map(|(found, _)| found.vehicle as usize)
     }
 
     /// Moves `m` to the lane on that side; the vehicles of the lanes around learn of it. `crossed` gets the vehicles
