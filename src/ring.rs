@@ -341,13 +341,16 @@ impl Ring {
 
     /// The next vehicle ahead of j, at i or ahead of i, where i is about `about` metres ahead (negative: behind).
     fn walk_ahead(&self, j: usize, mut i: usize, mut about: f64, s: &[f64]) -> Beside {
-        loop {
+        let lane = self.lane(i);
+        for _ in 0..=2 * self.count[lane] {
             if let Some(offset) = self.offset_if_ahead(i, j, s, about) {
                 return Beside { vehicle: i as u32, offset };
             }
             about += self.headway(i, s);
             i = self.ahead(i);
         }
+        // Twice round: nudges have put the lane out of order, or someone several laps ahead.
+        self.search(j, lane, s)
     }
 
     /// Brings beside up to date after the vehicles have moved, and tells who was passed by whom, in order of the
@@ -391,6 +394,7 @@ impl Ring {
             i = found.vehicle as usize;
             distance = found.distance(j, s);
         }
+        let mut walked = 0;
         loop {
             let follower = self.behind(i);
             let about = distance - self.headway(follower, s);
@@ -398,11 +402,18 @@ impl Ring {
                 return Some((found, distance.min(-about)));
             }
             // The one behind i was at most alongside; now it is looked at exactly.
-            let Some(offset) = self.offset_if_ahead(follower, j, s, about) else { return Some((found, 0.0)) };
-            found = Beside { vehicle: follower as u32, offset };
-            pass(follower);
-            i = follower;
-            distance = found.distance(j, s);
+            let seen = Beside { vehicle: follower as u32, offset: self.offset_of(follower, j, s) };
+            let more_laps = ((about - seen.distance(j, s)) / self.length).round();
+            if more_laps < 0.0 {
+                return Some((found, 0.0));
+            }
+            // Once round, everyone there has come past.
+            if walked < self.count[self.lane(follower)] {
+                pass(follower);
+            }
+            walked += 1;
+            (found, i) = (seen, follower);
+            distance = seen.distance(j, s) + more_laps * self.length;
         }
     }
 
