@@ -461,6 +461,9 @@ impl Ring {
             let mut walk = self.back_from_beside(m, side);
             while let Some(j) = walk.step(&self.behind) {
                 if self.beside(j, toward).vehicle() != Some(m) {
+                    if walk.may_be_alongside() {
+                        continue;
+                    }
                     break;
                 }
                 self.beside[j][toward as usize] = if leader == m {
@@ -480,6 +483,9 @@ impl Ring {
         while let Some(j) = walk.step(&self.behind) {
             let arrived = Beside { vehicle: m as u32, offset: self.offset_of(m, j, s) };
             if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
+                if walk.may_be_alongside() {
+                    continue;
+                }
                 break;
             }
             self.beside[j][toward as usize] = arrived;
@@ -500,6 +506,9 @@ impl Ring {
         let mut walk = self.back_from_beside(m, side);
         while let Some(j) = walk.step(&self.behind) {
             if self.laps(m, j, s) <= self.laps(m, j, before) {
+                if walk.may_be_alongside() {
+                    continue;
+                }
                 break;
             }
             crossed.push(Pass { passer: m as u32, passed: j as u32 });
@@ -509,8 +518,8 @@ impl Ring {
     /// The vehicles of the lane on that side of m, once round, backwards from the one that is at most alongside.
     fn back_from_beside(&self, m: usize, side: Side) -> BackWalk {
         match self.beside(m, side).vehicle() {
-            Some(i) => BackWalk { next: self.behind(i), left: self.count[self.lane(i)] },
-            None => BackWalk { next: 0, left: 0 },
+            Some(i) => BackWalk::new(self.behind(i), self.count[self.lane(i)]),
+            None => BackWalk::new(0, 0),
         }
     }
 
@@ -558,10 +567,20 @@ impl Ring {
 /// [`BackWalk::step`].
 struct BackWalk {
     next: usize,
+    count: usize,
     left: usize,
 }
 
 impl BackWalk {
+    fn new(next: usize, count: usize) -> Self {
+        Self { next, count, left: count }
+    }
+
+    /// Whether this is the first one: exactly alongside, it would be a lap behind, and say nothing of those behind it.
+    fn may_be_alongside(&self) -> bool {
+        self.left + 1 == self.count
+    }
+
     fn step(&mut self, behind: &[u32]) -> Option<usize> {
         self.left = self.left.checked_sub(1)?;
         let j = self.next;

@@ -43,14 +43,21 @@ fn compare<S: Sampler>(fast: &Simulation<S>, twin: &Twin<S>) {
         assert_eq!(fast.frustration(j).to_bits(), twin.frustration[j].to_bits(), "frustration of {j}");
         assert_eq!(fast.lane_changes(j), twin.lane_changes[j], "lane changes of {j}");
         assert_eq!(fast.driver(j), &twin.drivers[j], "driver of {j}");
-        assert!((fast.displacements()[j] - twin.nudged(j) - fast.distance(j)).abs() < 1e-9, "distance of {j}");
+        assert!(
+            (fast.displacements()[j] - twin.nudged(j) - fast.distance(j)).abs() < 1e-9,
+            "distance of {j}"
+        );
     }
     for (lane, &count) in fast.vehicles_per_lane().iter().enumerate() {
         assert_eq!(twin.lane.iter().filter(|&&l| l == lane).count(), count, "vehicles in lane {lane}");
     }
     if !twin.order_is_lost() {
         for j in 0..n {
-            assert_eq!(fast.leader(j), twin.search_leader(j).vehicle, "the search finds another leader of {j}");
+            assert_eq!(
+                fast.leader(j),
+                twin.search_leader(j).vehicle,
+                "the search finds another leader of {j}"
+            );
             for side in Side::BOTH {
                 assert_eq!(fast.adjacent(j, side), twin.adjacent(j, side), "adjacent to {j}, {side:?}");
             }
@@ -60,7 +67,6 @@ fn compare<S: Sampler>(fast: &Simulation<S>, twin: &Twin<S>) {
 
 /// Runs both to the end; `live` are actions made at their time instead of known beforehand.
 fn run<S: Sampler>(scenario: &Scenario, live: &[Action], seen: &mut Seen) {
-    if std::env::var("TRACE").is_ok() { eprintln!("TRACE {} live {:?}", scenario.to_json(), live.iter().map(ToString::to_string).collect::<Vec<_>>()); }
     let mut fast = Simulation::<S>::with_sampler(scenario).unwrap();
     let mut twin = Twin::<S>::new(scenario);
     seen.scenarios += 1;
@@ -101,7 +107,7 @@ fn runner(cases: u32, seed: u64) -> TestRunner {
         cases,
         rng_seed: RngSeed::Fixed(seed),
         failure_persistence: None,
-        max_shrink_iters: 300,
+        max_shrink_iters: 1000,
         ..Config::default()
     })
 }

@@ -97,7 +97,8 @@ fn base(lanes: usize) -> impl Strategy<Value = Scenario> {
     let step = (select(vec![0.01, 0.05, 0.1, 0.5]), 1..900_u32);
     (road(lanes), start(lanes), driver, step, 0..1_u64 << 53).prop_map(
         move |((vehicles, length), start, (v, lambda, delta, r, p), (time_step, steps), seed)| {
-            let mut scenario = Scenario { vehicles, length, lanes, time_step, seed, start, ..Scenario::default() };
+            let mut scenario =
+                Scenario { vehicles, length, lanes, time_step, seed, start, ..Scenario::default() };
             scenario.until = f64::from(steps) * time_step;
             let driver = &mut scenario.driver;
             (driver.max_speed, driver.sensitivity, driver.reaction_time) = (v, lambda, delta);

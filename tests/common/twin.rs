@@ -196,7 +196,11 @@ impl<S: Sampler> Twin<S> {
     }
 
     pub fn speed(&self, j: usize) -> f64 {
-        if self.released[j] > self.step as u64 { 0.0 } else { self.drivers[j].speed(self.perceived_headway(j)) }
+        if self.released[j] > self.step as u64 {
+            0.0
+        } else {
+            self.drivers[j].speed(self.perceived_headway(j))
+        }
     }
 
     // ---- The stages of a step ------------------------------------------------------------------------------------
@@ -257,9 +261,9 @@ impl<S: Sampler> Twin<S> {
 
     fn attempt(&mut self, j: usize, to: usize) {
         let (from, frustration, d) = (self.lane[j], self.frustration[j], self.drivers[j].min_headway);
-        let occupied = (0..self.vehicles()).filter(|&i| self.lane[i] == to).any(|i| {
-            self.distance(j, self.forward(i, j)) <= d || self.backward(i, j) <= d
-        });
+        let occupied = (0..self.vehicles())
+            .filter(|&i| self.lane[i] == to)
+            .any(|i| self.distance(j, self.forward(i, j)) <= d || self.backward(i, j) <= d);
         if occupied {
             self.events.push(Event::Refused { vehicle: j, from, to, frustration });
             return;
@@ -279,8 +283,7 @@ impl<S: Sampler> Twin<S> {
     /// Stage 3, and the actions due then. `displacements`: the fast code's, nudges included.
     pub fn forward_all(&mut self, displacements: &[f64]) {
         let dt = self.scenario.time_step;
-        let row: Vec<f64> =
-            (0..self.vehicles()).map(|j| self.now()[j] + self.speed(j) * dt).collect();
+        let row: Vec<f64> = (0..self.vehicles()).map(|j| self.now()[j] + self.speed(j) * dt).collect();
         self.s.push(row);
         self.step += 1;
         self.delay_before.clone_from(&self.delay);
