@@ -484,6 +484,7 @@ impl Ring {
             let arrived = Beside { vehicle: m as u32, offset: self.offset_of(m, j, s) };
             if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
                 if walk.may_be_alongside() {
+                    self.watch[j] = 0;
                     continue;
                 }
                 break;
