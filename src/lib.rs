@@ -22,6 +22,11 @@
 //! | [`ring`] | who is ahead, who passed |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
 
+/// The README's example runs with the tests in the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
+
 pub mod action;
 pub mod driver;
 pub mod error;
@@ -35,8 +40,3 @@ pub mod reaction;
 pub mod ring;
 pub mod scenario;
 pub mod simulation;
-
-/// The README's example runs with the tests in the documentation.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-pub struct Readme;
