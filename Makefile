@@ -108,7 +108,7 @@ target/release/ringroad: $(CORE) $(COMMAND) | setup
 
 # The hashes of the tables that the native core computes, for the browser to compute again. The native test
 # writes them to $RINGROAD_HASHES (.cargo/config.toml); tests/web.rs includes that file.
-target/hashes.json: $(CORE) tests/hashes.rs | setup
+target/hashes.json: $(CORE) tests/hashes.rs $(wildcard tests/common/*.rs) | setup
 	cargo test --test hashes
 	@touch $@
 
