@@ -252,7 +252,7 @@ impl Ring {
     }
 
     /// The dominant root of every mode, and the count that shows that none was lost. Rings of more than
-    /// [`ALL_MODES`] vehicles: of mode 1 … 100, of a choice of others, and of all around the fastest of these.
+    /// [`ALL_MODES`] vehicles: of modes 1 … 100, of a choice of others, and of those around the fastest.
     pub fn followed(&self, time: Time) -> Followed {
         let (paths, slope, tau) = self.paths();
         let last = self.vehicles() / 2;
@@ -263,11 +263,7 @@ impl Ring {
         }
         let follow = |q: usize| root(q, 0).map(|root| Mode { mode: q, root });
         if self.vehicles() > ALL_MODES {
-            let mut q = 1;
-            while q <= last {
-                modes.extend(follow(q));
-                q += (q / 50).max(1);
-            }
+            modes.extend(choice(last).filter_map(follow));
             climb(&mut modes, last, follow);
             let unstable = unstable_among(&modes);
             return Followed { modes, unstable, counted: None };
@@ -308,7 +304,8 @@ impl Ring {
     ///
     /// Each mode's crossing of the imaginary axis is followed from equal drivers; the smallest counts. A root
     /// from another branch may cross earlier: then the count of unstable roots just below tells, and the
-    /// threshold is found by bisection on the count.
+    /// threshold is found by bisection on the count. Of rings of more than [`ALL_MODES`] vehicles only a choice of
+    /// modes is looked at, and nothing is counted: the smallest is then right to some 10⁻⁴ of its value.
     pub fn critical(&self, time: Time) -> f64 {
         if let Some((ring, _)) = self.equal() {
             return ring.critical(time);
@@ -322,7 +319,7 @@ impl Ring {
             return 0.0;
         }
         let last = self.vehicles() / 2;
-        let candidates = (1..=last.min(ALL_MODES / 2)).filter_map(|q| self.crossing(q, time));
+        let candidates = choice(last).filter_map(|q| self.crossing(q, time));
         let smallest = candidates.filter(|tau| *tau > 0.0).fold(f64::INFINITY, f64::min);
         let below = smallest * (1.0 - 1e-7);
         if !counts || !smallest.is_finite() || count_at(below).is_none_or(|count| count == 0) {
@@ -478,6 +475,12 @@ impl Ring {
         };
         (angle - log_g.im, by_s * ratio - slope / g)
     }
+}
+
+/// Modes to follow: all of a small ring; of a large one 1 … 100, then steps of 2 %.
+fn choice(last: usize) -> impl Iterator<Item = usize> {
+    let next = move |q: &usize| if last <= ALL_MODES / 2 { q + 1 } else { q + (q / 50).max(1) };
+    std::iter::successors(Some(1), move |q| Some(next(q))).take_while(move |q| *q <= last)
 }
 
 /// Fills in the modes around the fastest until it has both neighbours.

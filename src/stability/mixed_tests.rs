@@ -89,7 +89,10 @@ fn equal_drivers_come_back_as_a_special_case() {
         let exact = EqualRing { vehicles: 50, slope: c };
         for time in [Time::Continuous, Time::Steps(DT)] {
             assert!(nearly.equal().is_none());
-            for mode in nearly.followed(time).modes {
+            let mut modes = nearly.followed(time).modes;
+            // Beyond the first of a mode come unstable roots of other branches.
+            modes.dedup_by_key(|m| m.mode);
+            for mode in modes {
                 let root = exact.root(mode.mode, delay, time);
                 assert!(
                     norm(mode.root - root) < 1e-10 || mode.mode == 25 && same(mode.root, root),
@@ -129,11 +132,15 @@ fn no_unstable_root_is_lost() {
             let followed = ring.followed(time);
             assert_eq!(Some(followed.unstable), followed.counted, "seed {seed}, {time:?}");
             for mode in &followed.modes {
-                let product = ring.kinds().iter().fold(Complex64::ZERO, |sum, kind| {
-                    let (g, _) = time.derivative(mode.root);
-                    sum + kind.count as f64 * ln_1p(g * exp(mode.root * kind.delay) / kind.slope)
-                });
-                assert!(norm(exp_m1(product)) < 1e-10, "seed {seed}, {mode:?}");
+                let (g, slope) = time.derivative(mode.root);
+                let (mut sum, mut by_s) = (Complex64::ZERO, Complex64::ZERO);
+                for kind in ring.kinds() {
+                    let y = exp(mode.root * kind.delay) / kind.slope;
+                    sum += kind.count as f64 * ln_1p(g * y);
+                    by_s += kind.count as f64 * y * (slope + g * kind.delay) / (1.0 + g * y);
+                }
+                // Π u_j − 1, as the distance of the root from where it vanishes.
+                assert!(norm(exp_m1(sum) / by_s) < 1e-12, "seed {seed}, {mode:?}");
             }
         }
     }
@@ -170,7 +177,9 @@ fn the_critical_delay_is_where_the_largest_real_part_vanishes() {
 #[test]
 fn the_mean_delay_decides_for_long_waves() {
     let ring = Ring::new((0..2000).map(|j| (1.0, if j % 4 == 0 { 0.0 } else { 0.6 })));
-    assert!((ring.critical(Time::Continuous) - 0.5).abs() < 1e-4);
+    assert!((ring.crossing(1, Time::Continuous).unwrap() - 0.5).abs() < 1e-6);
+    // With delays so different, shorter waves are less stable still.
+    assert!(ring.critical(Time::Continuous) < 0.49);
 }
 
 #[test]
