@@ -128,7 +128,7 @@ impl Walker<'_> {
             if !size.is_finite() {
                 return false;
             }
-            if size < 4e-15 || (size < 1e-9 && size > 0.25 * last) {
+            if size < 4e-15 || (size < 1e-12 && size > 0.25 * last) {
                 return true;
             }
             last = size;
