@@ -36,7 +36,9 @@ pub fn calm_with(scenario: &Scenario, changes: &[(&'static Parameter, f64)]) -> 
     let lane = lanes_of(scenario).swap_remove(place);
     let changed = |driver: &Driver| {
         let mut driver = *driver;
-        changes.iter().for_each(|&(parameter, value)| assign(&mut driver, parameter, value));
+        for &(parameter, value) in changes {
+            assign(&mut driver, parameter, value);
+        }
         driver
     };
     for &(parameter, value) in changes {

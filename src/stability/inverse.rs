@@ -7,6 +7,12 @@ use super::lambert::lambert_w;
 use crate::driver::Driver;
 use crate::parameters::Parameter;
 
+/// The largest number of such vehicles that a lane of `length` metres holds without touching.
+pub fn most_vehicles(driver: &Driver, length: f64) -> usize {
+    let most = Parameter::named("vehicles").map_or(f64::INFINITY, |p| p.max);
+    ((length / driver.vehicle_length).ceil() - 1.0).clamp(1.0, most) as usize
+}
+
 /// The numbers of vehicles from 1 to `most` with which a lane of `length` metres is stable at the delay `delay`
 /// (s), as intervals with both ends included.
 ///

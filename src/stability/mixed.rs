@@ -213,6 +213,18 @@ impl Ring {
         (self.kinds().iter().map(path).collect(), crate::exp::exp(-mean_log), tau)
     }
 
+    /// |Π u_j − 1| at s, as the distance of s from where it vanishes, 1/s.
+    pub fn residual(&self, s: Complex64, time: Time) -> f64 {
+        let (g, slope) = time.derivative(s);
+        let (mut sum, mut by_s) = (Complex64::ZERO, Complex64::ZERO);
+        for kind in self.kinds() {
+            let (n, y) = (kind.count as f64, exp(s * kind.delay) / kind.slope);
+            sum += n * ln_1p(g * y);
+            by_s += n * y * (slope + g * kind.delay) / (1.0 + g * y);
+        }
+        norm(exp_m1(sum) / by_s)
+    }
+
     /// The root of mode q, followed from branch k of equal drivers. `None` where it could not be followed, or
     /// where no root is on that branch (several branches exist only where there is a delay).
     pub fn follow(&self, q: usize, k: i32, time: Time) -> Option<Complex64> {

@@ -1,6 +1,7 @@
 //! The verdict on a scenario, or on traffic as it is now: what `ringroad stability` prints and what the page's verdict
 //! line speaks from.
 
+use super::complex::{Complex64, norm};
 use super::equal::{Mode, Time};
 use super::ring::Ring;
 use crate::driver::{Driver, equilibrium};
@@ -23,6 +24,7 @@ pub struct Lane {
 /// the fastest mode of a jam. "Discrete" is the simulation's difference equation at the delay in force, m·dt;
 /// the rest is continuous time at the drivers' reaction times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(clippy::struct_excessive_bools)] // answers to separate questions, read by name in JSON
 pub struct Report {
     /// The least stable lane, from 1; all below is of that lane.
     pub lane: usize,
@@ -143,6 +145,53 @@ fn growth(ring: &Ring, time: Time) -> Growth {
     Growth { fastest: followed.fastest(), stable, all_found }
 }
 
+/// A characteristic root in continuous time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ModeRoot {
+    /// q.
+    pub mode: usize,
+    /// The branch of Lambert's W; of drivers that differ, the branch of equal drivers from which it was followed.
+    pub branch: i32,
+    /// Re s, 1/s.
+    pub real_per_s: f64,
+    /// Im s, 1/s.
+    pub imaginary_per_s: f64,
+    /// What rounding has left of the equation, as a change of the root, relative to max(1, |s|).
+    pub residual: f64,
+}
+
+/// The `count` leading characteristic roots of every mode of a lane (from 0), mode by mode, by falling real part.
+pub fn leading_roots(scenario: &Scenario, lane: usize, count: usize) -> Vec<ModeRoot> {
+    let lane = lanes_of(scenario).swap_remove(lane);
+    let (ring, _) = rings(&lane, scenario.length, scenario.time_step);
+    let root = |mode: usize, branch: i32, s: Complex64, residual: f64| ModeRoot {
+        mode,
+        branch,
+        real_per_s: s.re,
+        imaginary_per_s: s.im,
+        residual,
+    };
+    let modes = 1..=ring.vehicles() / 2;
+    if let Some((equal, delay)) = ring.equal() {
+        let of_mode = |q: usize| {
+            let roots = equal.leading_roots(q, delay, count).into_iter();
+            roots.map(move |r| root(q, r.branch, r.value, r.residual))
+        };
+        return modes.flat_map(of_mode).collect();
+    }
+    let of_mode = |q: usize| {
+        let reach = count as i32;
+        let mut roots: Vec<_> = (-reach..=reach)
+            .filter_map(|k| ring.follow(q, k, Time::Continuous).map(|s| (k, s)))
+            .map(|(k, s)| root(q, k, s, ring.residual(s, Time::Continuous) / norm(s).max(1.0)))
+            .collect();
+        roots.sort_by(|a, b| b.real_per_s.total_cmp(&a.real_per_s));
+        roots.truncate(count);
+        roots
+    };
+    modes.flat_map(of_mode).collect()
+}
+
 /// Whether no disturbance grows.
 pub(super) fn is_stable(ring: &Ring, time: Time) -> bool {
     growth(ring, time).stable
@@ -155,11 +204,62 @@ fn rings(lane: &Lane, length: f64, time_step: f64) -> (Ring, Ring) {
     (continuous, Ring::of(&lane.drivers, delays, length))
 }
 
+/// Four significant digits, or whole numbers where these are longer.
+fn shown(x: f64) -> String {
+    let magnitude = if x == 0.0 { 0.0 } else { libm::log10(x.abs()).floor() };
+    let decimals = (3.0 - magnitude).clamp(0.0, 9.0) as usize;
+    let text = format!("{x:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
 fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
 
 impl Report {
+    /// The verdict in words.
+    pub fn verdict(&self) -> String {
+        let n = self.vehicles;
+        if n < 2 {
+            return "One vehicle alone: there is nobody to be disturbed by, so every reaction time is stable.".into();
+        }
+        if self.jammed {
+            return "A jam: nobody moves, so nothing grows, whatever the reaction time.".into();
+        }
+        let delay = shown(self.delay_in_force_s);
+        let (whose, mean) =
+            if self.equal_drivers { ("Reaction time", "") } else { ("Mean reaction time", " in the mean") };
+        let side = match self.critical_reaction_time_discrete_s {
+            Some(critical) if critical <= 0.0 => {
+                "the steps are so long that no reaction time is stable".to_owned()
+            }
+            Some(critical) => {
+                let side = if self.stable { "below" } else { "above" };
+                format!("{side} the critical {} s{mean}", shown(critical))
+            }
+            None => "and no reaction time is critical".to_owned(),
+        };
+        let verdict = if self.stable { "stable" } else { "unstable" };
+        let mut text = format!("{whose} {delay} s, {side}: {verdict}.");
+        if let Some(wave) = self.wave {
+            let waves = if wave.mode == 1 { "wave" } else { "waves" };
+            text += &match (wave.doubling_time_s, wave.halving_time_s) {
+                (Some(t), _) => {
+                    format!(" Fastest: {} {waves} on the ring, doubling every {} s.", wave.mode, shown(t))
+                }
+                (_, Some(t)) => {
+                    format!(
+                        " Slowest to fade: {} {waves} on the ring, halving every {} s.",
+                        wave.mode,
+                        shown(t)
+                    )
+                }
+                _ => String::new(),
+            };
+        }
+        text
+    }
+
     /// The report on a scenario at its start; the actions on the way are not considered.
     pub fn of(scenario: &Scenario) -> Self {
         Self::of_lanes(&lanes_of(scenario), scenario.length, scenario.time_step)
@@ -280,6 +380,25 @@ mod tests {
         let jam = json(&Scenario { vehicles: 150, ..scenario(5.0) });
         assert!(jam["critical_reaction_time_s"].is_null() && jam["fastest_mode_discrete"].is_null());
         assert_eq!((&jam["stable"], &jam["max_growth_rate_per_s"]), (&true.into(), &0.0.into()));
+    }
+
+    #[test]
+    fn the_verdict_in_words() {
+        let verdict = |reaction_time| Report::of(&scenario(reaction_time)).verdict();
+        let doubling = Report::of(&scenario(0.75)).wave.unwrap().doubling_time_s.unwrap();
+        assert_eq!(
+            verdict(0.75),
+            format!(
+                "Reaction time 0.75 s, above the critical 0.6789 s: unstable. Fastest: 8 waves on the ring, \
+                 doubling every {doubling:.2} s."
+            )
+        );
+        assert!(verdict(0.5).starts_with(
+            "Reaction time 0.5 s, below the critical 0.6789 s: stable. Slowest to fade: 1 wave"
+        ));
+        assert!(Report::of(&Scenario { vehicles: 150, ..scenario(2.0) }).verdict().starts_with("A jam"));
+        assert_eq!(shown(12345.6), "12346");
+        assert_eq!((shown(0.0), shown(0.001_234_56)), ("0".to_owned(), "0.001235".to_owned()));
     }
 
     #[test]

@@ -99,7 +99,7 @@ impl Ring {
 /// The common speed is sought as w = −ln(1 − v/V), V the smallest maximal speed: Σ_j h_j = L with
 /// h_j = d_j − (V_j/λ_j)·ln(1 − v/V_j), which rises with w. In this variable nothing is lost where v is within
 /// rounding of V, as behind a slow vehicle on a long road; c_j = λ_j(1 − v/V_j).
-fn slopes(drivers: &[Driver], length: f64) -> Vec<f64> {
+pub fn slopes(drivers: &[Driver], length: f64) -> Vec<f64> {
     let Some(first) = drivers.first() else { return Vec::new() };
     let law = |d: &Driver| (d.max_speed, d.sensitivity, d.min_headway);
     if drivers.iter().all(|d| law(d) == law(first)) {
