@@ -16,6 +16,7 @@
 
 use crate::driver::Driver;
 use crate::exp::exp_within;
+use crate::history::History;
 use crate::vector::{CHUNK, Width, kernel};
 
 /// Steps between full evaluations of all factors.
@@ -179,6 +180,46 @@ kernel! {
     }
 }
 
+kernel! {
+    /// Smallest and largest of some numbers; exact, in whatever order they are compared.
+    fn extremes(values: &[f64], found: &mut [f64; 2]) {
+        let (mut least, mut most) = ([f64::INFINITY; CHUNK], [f64::NEG_INFINITY; CHUNK]);
+        let chunks = values.chunks_exact(CHUNK);
+        let rest = chunks.remainder();
+        let mut take = |j: usize, v: f64| {
+            least[j] = if v < least[j] { v } else { least[j] };
+            most[j] = if v > most[j] { v } else { most[j] };
+        };
+        for chunk in chunks {
+            for j in 0..CHUNK {
+                take(j, chunk[j]);
+            }
+        }
+        for (j, &v) in rest.iter().enumerate() {
+            take(j, v);
+        }
+        *found = [least.into_iter().fold(f64::INFINITY, f64::min), most.into_iter().fold(f64::NEG_INFINITY, f64::max)];
+    }
+}
+
+kernel! {
+    /// What everyone sees where each has a delay of their own: row `head − delay` of `rows` rows, `row` numbers each.
+    fn see_apart(offset: &[f64], leaders: &[u32], delays: &[u32], data: &[f64], geometry: [u32; 3], scene: &mut [f64]) {
+        let [head, rows, row] = geometry;
+        for start in (0..delays.len()).step_by(CHUNK) {
+            let delays: &[u32; CHUNK] = (&delays[start..start + CHUNK]).try_into().expect("padded");
+            let leaders: &[u32; CHUNK] = (&leaders[start..start + CHUNK]).try_into().expect("padded");
+            let offset = chunk(offset, start);
+            let scene = chunk_mut(scene, start);
+            for j in 0..CHUNK {
+                let back = if delays[j] > head { rows } else { 0 };
+                let begin = ((head + back) - delays[j]) as usize * row as usize;
+                scene[j] = offset[j] + (data[begin + leaders[j] as usize] - data[begin + start + j]);
+            }
+        }
+    }
+}
+
 impl Following {
     /// For these drivers, in arrays padded to `padded` numbers; no factor is valid yet.
     pub fn new(drivers: &[Driver], padded: usize) -> Self {
@@ -236,6 +277,26 @@ impl Following {
     /// Overrules the law: a braked vehicle.
     pub fn set_speed(&mut self, j: usize, speed: f64) {
         self.state.speed[j] = speed;
+    }
+
+    /// How much faster the fastest of the first `vehicles` is than the slowest, m/s.
+    pub fn spread(&self, vehicles: usize) -> f64 {
+        let mut found = [0.0; 2];
+        extremes(self.width, &self.state.speed[..vehicles], &mut found);
+        found[1] - found[0]
+    }
+
+    /// What everyone sees, each with a delay of their own; all slices padded.
+    pub fn see_apart(
+        &self,
+        offset: &[f64],
+        leaders: &[u32],
+        delays: &[u32],
+        history: &History,
+        scene: &mut [f64],
+    ) {
+        let (data, geometry) = history.rows();
+        see_apart(self.width, offset, leaders, delays, data, geometry, scene);
     }
 
     /// New displacements after a step of `dt` seconds.
