@@ -38,6 +38,12 @@ fn measured(
     let rates = table.floats("growth_rate_per_s").unwrap();
     let errors = table.floats("standard_error_per_s").unwrap();
     let points = table.wholes("points").unwrap();
+    // The table carries the theory beside the measurement.
+    let ring = EqualRing { vehicles: 50, slope: Driver::default().slope(20.0) };
+    for (k, &predicted) in table.floats("predicted_per_s").unwrap().iter().enumerate() {
+        let root = ring.root(k + 1, reaction_time, Time::Steps(0.01));
+        assert!(points[k] == 0 || (predicted - root.re).abs() < 1e-12);
+    }
     (0..modes).map(|k| (rates[k], errors[k], points[k])).collect()
 }
 
