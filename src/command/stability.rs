@@ -58,9 +58,7 @@ struct Answer {
     stable_vehicles: Vec<(usize, usize)>,
     /// Sensitivities of equal drivers, otherwise the default one, as many as in the lane of the report; 1/s.
     stable_sensitivities_per_s: Vec<(f64, f64)>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    smallest_calming_number: Option<Option<usize>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(flatten)]
     calming: Option<Calming>,
     #[serde(skip_serializing_if = "Option::is_none")]
     roots: Option<Vec<ModeRoot>>,
@@ -85,7 +83,6 @@ fn answer(scenario: &Scenario, calm: Option<&String>, roots: Option<usize>) -> R
             delay,
             time,
         ),
-        smallest_calming_number: calming.as_ref().map(|c| c.smallest_calming_number),
         calming,
         roots: roots.map(|count| leading_roots(scenario, report.lane - 1, count)),
         report,

@@ -82,7 +82,7 @@ impl Spectrum {
         let scenario = simulation.scenario();
         let vehicles = self.order.len();
         let slope = first.slope(scenario.length / vehicles as f64);
-        equal.then(|| (EqualRing { vehicles, slope }, steps as f64 * scenario.time_step))
+        equal.then_some((EqualRing { vehicles, slope }, steps as f64 * scenario.time_step))
     }
 
     fn deviations<'a>(&'a self, simulation: &'a Simulation) -> impl Iterator<Item = f64> + 'a {

@@ -10,18 +10,23 @@ use crate::parameters::Parameter;
 use crate::scenario::{Scenario, assign, check_min_headway};
 use serde::Serialize;
 
-/// The answer, for the least stable lane of a scenario, in the steps of its simulation.
+/// The answer, for the least stable lane of a scenario, in the steps of its simulation. Its JSON is part of a report's, where
+/// lane and vehicles are said already.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Calming {
     /// The lane, from 1.
+    #[serde(skip)]
     pub lane: usize,
     /// Vehicles in it.
+    #[serde(skip)]
     pub vehicles: usize,
     /// The smallest number of changed drivers with whom the lane is stable; `None` where no number calms it.
     pub smallest_calming_number: Option<usize>,
     /// Numbers of changed drivers, 0 first: all up to the lane's vehicles, of a large lane a choice.
+    #[serde(rename = "calming_numbers")]
     pub numbers: Vec<usize>,
     /// The largest growth rate of each, 1/s.
+    #[serde(rename = "calming_growth_rates_discrete_per_s")]
     pub max_growth_rates_discrete_per_s: Vec<f64>,
 }
 

@@ -243,19 +243,16 @@ impl Report {
         let mut text = format!("{whose} {delay} s, {side}: {verdict}.");
         if let Some(wave) = self.wave {
             let waves = if wave.mode == 1 { "wave" } else { "waves" };
-            text += &match (wave.doubling_time_s, wave.halving_time_s) {
-                (Some(t), _) => {
-                    format!(" Fastest: {} {waves} on the ring, doubling every {} s.", wave.mode, shown(t))
-                }
-                (_, Some(t)) => {
-                    format!(
-                        " Slowest to fade: {} {waves} on the ring, halving every {} s.",
-                        wave.mode,
-                        shown(t)
-                    )
-                }
-                _ => String::new(),
+            let (what, how, time) = match (wave.doubling_time_s, wave.halving_time_s) {
+                (Some(time), _) => ("Fastest", "doubling", time),
+                (None, Some(time)) => ("Slowest to fade", "halving", time),
+                (None, None) => return text,
             };
+            text.push_str(&format!(
+                " {what}: {} {waves} on the ring, {how} every {} s.",
+                wave.mode,
+                shown(time)
+            ));
         }
         text
     }
