@@ -16,6 +16,7 @@
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
+//! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 //! | [`preset`] | scenarios with names |
 //! | [`measurement`] | what to measure, plain data |
 //! | [`probe`] | one file a measurement |
@@ -45,6 +46,7 @@ pub mod reaction;
 pub mod ring;
 pub mod scenario;
 pub mod simulation;
+pub mod stability;
 pub mod table;
 pub mod vector;
 

@@ -124,6 +124,16 @@ impl Table {
         out
     }
 
+    /// The same for a table that was computed from a scenario without a run; `how` says what was asked, in one line.
+    pub fn to_csv_computed(&self, scenario: &Scenario, how: &str) -> String {
+        let mut out = String::new();
+        let _ = writeln!(out, "{PROGRAM}{VERSION}");
+        let _ = writeln!(out, "{SCENARIO}{}", scenario.to_json());
+        let _ = writeln!(out, "{COMPUTED}{how}");
+        self.write_body(&mut out);
+        out
+    }
+
     /// Column meanings, column names and rows: all of the CSV below the lines that say what made it.
     pub fn write_body(&self, out: &mut String) {
         for column in &self.columns {
@@ -156,6 +166,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 const PROGRAM: &str = "# ringroad ";
 const SCENARIO: &str = "# scenario ";
 const MEASUREMENT: &str = "# measurement ";
+const COMPUTED: &str = "# computed ";
 
 /// What the header of a CSV file says about its making.
 #[derive(Clone, Debug, PartialEq)]
