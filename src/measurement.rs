@@ -8,8 +8,8 @@ use crate::error::Invalid;
 use crate::parameters::quoted;
 use crate::probe::{
     Probe, cyclic_growth::CyclicGrowth, drivers::Drivers, drivers::Vehicles, equilibrium::Equilibria,
-    events::Events, flow::Flow, growth::Growth, lanes::Lanes, modes::Modes, speed_map::SpeedMap,
-    speeds::Speeds, trajectories::Trajectories,
+    events::Events, flow::Flow, growth::Growth, lanes::Lanes, modes::Modes, overview::Outcome,
+    overview::Overview, speed_map::SpeedMap, speeds::Speeds, trajectories::Trajectories,
 };
 use crate::scenario::Scenario;
 use serde::{Deserialize, Serialize};
@@ -21,6 +21,13 @@ use serde_json::{Map, Value};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "table", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Measurement {
+    /// A run in one row, at its end.
+    Outcome {},
+    /// The whole ring, a row for each time.
+    Overview {
+        /// Time between rows, s.
+        every: f64,
+    },
     /// Every vehicle's state, a row for each vehicle and time.
     Trajectories {
         /// Time between rows, s.
@@ -204,7 +211,7 @@ fn number_value(x: f64) -> Value {
 
 impl Measurement {
     /// Every measurement with its default settings, in the order in which people read them.
-    pub fn all() -> [Self; 13] {
+    pub fn all() -> [Self; 15] {
         let every = 1.0;
         [
             Self::Trajectories { every },
@@ -220,6 +227,8 @@ impl Measurement {
             Self::Lanes { every },
             Self::Drivers { every },
             Self::Vehicles { every },
+            Self::Overview { every },
+            Self::Outcome {},
         ]
     }
 
@@ -249,7 +258,14 @@ impl Measurement {
             Self::Lanes { .. } => "lanes",
             Self::Drivers { .. } => "drivers",
             Self::Vehicles { .. } => "vehicles",
+            Self::Overview { .. } => "overview",
+            Self::Outcome {} => "outcome",
         }
+    }
+
+    /// Time between rows, s, where they come at regular times.
+    pub fn every(&self) -> Option<f64> {
+        self.to_map().get("every").and_then(Value::as_f64)
     }
 
     /// The settings that this measurement has.
@@ -444,6 +460,8 @@ impl Measurement {
             Self::Lanes { every } => Box::new(Lanes::new(steps(every))),
             Self::Drivers { every } => Box::new(Drivers::new(steps(every))),
             Self::Vehicles { every } => Box::new(Vehicles::new(steps(every))),
+            Self::Overview { every } => Box::new(Overview::new(scenario, steps(every))),
+            Self::Outcome {} => Box::new(Outcome::new(scenario)),
         })
     }
 
@@ -458,6 +476,8 @@ impl Measurement {
             }
             Self::Vehicles { every } => (every, 4 * scenario.vehicles),
             Self::Flow { every, .. } => (every, 2),
+            Self::Overview { every } => (every, 6),
+            Self::Outcome {} => (scenario.until.max(1.0), 8),
             Self::Lanes { every } | Self::Equilibrium { every } | Self::Drivers { every } => {
                 (every, 8 * scenario.lanes)
             }

@@ -3,6 +3,7 @@
 //! Exit status: 0 for a result (a collision is one), 1 where a replay differs, 2 where there is no result: bad
 //! usage or a file that cannot be read or written, with a message on the standard error stream.
 
+mod batch;
 mod options;
 mod output;
 mod parameters;
@@ -27,8 +28,8 @@ pub(crate) struct Subcommand {
 }
 
 /// Every subcommand, in the order in which the help shows them.
-const SUBCOMMANDS: [Subcommand; 4] =
-    [run::SUBCOMMAND, presets::SUBCOMMAND, parameters::SUBCOMMAND, replay::SUBCOMMAND];
+const SUBCOMMANDS: [Subcommand; 5] =
+    [run::SUBCOMMAND, batch::SUBCOMMAND, presets::SUBCOMMAND, parameters::SUBCOMMAND, replay::SUBCOMMAND];
 
 /// Why there is no result.
 #[derive(Debug)]

@@ -6,6 +6,7 @@
 //!
 //! | file | measurement |
 //! |---|---|
+//! | [`overview`] | the whole ring, over time or at the end |
 //! | [`trajectories`] | every vehicle's state |
 //! | [`speeds`] | speeds of some vehicles |
 //! | [`speed_map`] | space-time map of speed |
@@ -23,6 +24,7 @@ pub mod flow;
 pub mod growth;
 pub mod lanes;
 pub mod modes;
+pub mod overview;
 mod spectrum;
 pub mod speed_map;
 pub mod speeds;
