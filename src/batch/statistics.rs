@@ -31,7 +31,9 @@ impl Statistics {
         let mut values: Vec<f64> = values.into_iter().filter(|v| !v.is_nan()).collect();
         let count = values.len();
         let n = count as f64;
-        let mean = values.iter().sum::<f64>() / n;
+        // Seen from one of them, equal values deviate by nothing.
+        let origin = values.first().copied().unwrap_or(f64::NAN);
+        let mean = origin + values.iter().map(|v| v - origin).sum::<f64>() / n;
         let squares: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
         let deviation = if count > 1 { (squares / (n - 1.0)).sqrt() } else { f64::NAN };
         values.sort_unstable_by(f64::total_cmp);

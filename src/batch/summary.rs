@@ -141,9 +141,11 @@ impl Plan {
         }
         let Some(k) = columns.iter().position(|c| c.name == "time_s") else { return true };
         let time = number(&run.values[k], row);
-        let scenario = self.scenario(run.number);
-        time < run.end
-            || self.measurement().every().is_none_or(|s| scenario.steps(time) % scenario.steps(s) == 0)
+        time < run.end || {
+            let scenario = self.scenario(run.number);
+            let steps = |seconds| scenario.steps(seconds);
+            self.measurement().every().is_none_or(|every| steps(time).is_multiple_of(steps(every)))
+        }
     }
 }
 

@@ -24,7 +24,8 @@ impl Look {
     fn at(simulation: &Simulation) -> Self {
         let n = simulation.vehicles();
         let speeds = simulation.speeds();
-        let mean = speeds.iter().sum::<f64>() / n as f64;
+        // Seen from one of them, equal speeds deviate by nothing.
+        let mean = speeds[0] + speeds.iter().map(|v| v - speeds[0]).sum::<f64>() / n as f64;
         let squares: f64 = speeds.iter().map(|v| (v - mean) * (v - mean)).sum();
         let changes: u64 = (0..n).map(|j| u64::from(simulation.lane_changes(j))).sum();
         let counts = simulation.vehicles_per_lane();
