@@ -52,7 +52,9 @@ mod cases {
     impl Plain {
         pub(crate) fn new(vehicles: usize, delay: usize) -> Self {
             let mut rows = vec![vec![0.0; vehicles]; delay + 1];
-            rows.iter_mut().for_each(|row| row[0] = 1.0);
+            for row in &mut rows {
+                row[0] = 1.0;
+            }
             Self { rows, head: 0, headway: 20.0 }
         }
         pub(crate) fn step(&mut self) {

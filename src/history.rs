@@ -4,13 +4,13 @@
 //! A displacement is the distance driven since t = 0 plus the nudges since then. Rows lie in a ring buffer, vehicles
 //! side by side in a row, so that one step reads and writes memory in order.
 
-/// Rows are padded to whole vectors of this many numbers.
-pub(crate) const LANE: usize = 8;
+use crate::vector::CHUNK;
 
 /// Displacements (m) by step and vehicle.
 #[derive(Clone, Debug)]
 pub struct History {
     data: Vec<f64>,
+    vehicles: usize,
     /// Numbers in a row, padding included.
     width: usize,
     /// Rows kept.
@@ -22,9 +22,10 @@ pub struct History {
 impl History {
     /// All displacements 0, with room to look back `steps` steps.
     pub fn new(vehicles: usize, steps: usize) -> Self {
-        let width = vehicles.next_multiple_of(LANE);
+        // One more than the vehicles, and one more than a whole number of chunks: see `close`.
+        let width = padded(vehicles) + CHUNK;
         let rows = rows_for(steps);
-        Self { data: vec![0.0; width * rows], width, rows, head: 0 }
+        Self { data: vec![0.0; width * rows], vehicles, width, rows, head: 0 }
     }
 
     /// The row of `delay` steps ago.
@@ -46,10 +47,19 @@ impl History {
         self.seen(0)
     }
 
-    /// The present row, to displace a vehicle in.
-    pub fn now_mut(&mut self) -> &mut [f64] {
+    /// Displaces a vehicle by so many metres, now.
+    pub fn displace(&mut self, vehicle: usize, metres: f64) {
         let start = self.row_start(0);
-        &mut self.data[start..start + self.width]
+        self.data[start + vehicle] += metres;
+        self.close();
+    }
+
+    /// Repeats the first vehicle's displacement behind the last one's, so that a row reads as closed: on one lane the
+    /// leader of every vehicle is then the next number. To be called when the present row has been written.
+    #[inline]
+    pub fn close(&mut self) {
+        let start = self.row_start(0);
+        self.data[start + self.vehicles] = self.data[start];
     }
 
     /// Makes the next row the present one: gives (the row that was present, the one to be written).
@@ -96,6 +106,11 @@ impl History {
     }
 }
 
+/// Vehicles padded to whole chunks.
+pub(crate) fn padded(vehicles: usize) -> usize {
+    vehicles.next_multiple_of(CHUNK)
+}
+
 /// The present row and the one before are always there: passes are told by both.
 fn rows_for(steps: usize) -> usize {
     steps.max(1) + 1
@@ -133,9 +148,9 @@ mod tests {
 
     #[test]
     fn it_holds_the_rows_in_use_and_no_more() {
-        assert_eq!(History::new(16, 75).bytes(), 16 * 8 * 76);
+        assert_eq!(History::new(16, 75).bytes(), (16 + 8) * 8 * 76);
         let mut history = History::new(16, 75);
         history.look_back(10);
-        assert_eq!(history.bytes(), 16 * 8 * 11);
+        assert_eq!(history.bytes(), (16 + 8) * 8 * 11);
     }
 }

@@ -23,6 +23,7 @@
 //! | [`simulation`] | the state and its step |
 //! | [`following`] | perceived headways to speeds, all vehicles at once |
 //! | [`history`], [`reaction`] | what was Δ ago, and how long ago that is for whom |
+//! | [`vector`] | vectors as wide as the machine has them |
 //! | [`ring`] | who is ahead, who passed |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
 //! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
@@ -47,3 +48,9 @@ pub mod ring;
 pub mod scenario;
 pub mod simulation;
 pub mod table;
+pub mod vector;
+
+/// The README's example runs with the tests in the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -7,9 +7,20 @@
 use crate::error::Invalid;
 use crate::parameters::quoted;
 use crate::probe::{
-    Probe, cyclic_growth::CyclicGrowth, drivers::Drivers, drivers::Vehicles, equilibrium::Equilibria,
-    events::Events, flow::Flow, growth::Growth, lanes::Lanes, modes::Modes, overview::Outcome,
-    overview::Overview, speed_map::SpeedMap, speeds::Speeds, trajectories::Trajectories,
+    Probe,
+    cyclic_growth::CyclicGrowth,
+    drivers::Drivers,
+    drivers::Vehicles,
+    equilibrium::Equilibria,
+    events::Events,
+    flow::Flow,
+    growth::{Growth, Linear},
+    lanes::Lanes,
+    modes::Modes,
+    overview::{Outcome, Overview},
+    speed_map::SpeedMap,
+    speeds::Speeds,
+    trajectories::Trajectories,
 };
 use crate::scenario::Scenario;
 use serde::{Deserialize, Serialize};
@@ -89,8 +100,8 @@ pub enum Measurement {
         from: Option<f64>,
         /// Amplitude under which a mode is lost in rounding, m.
         smallest: f64,
-        /// Deviation of any headway above which the regime is no longer linear, m.
-        largest: f64,
+        /// Share of what is not linear in a mode's motion above which the regime is no longer linear.
+        nonlinearity: f64,
     },
     /// The cyclic growth rate of one vehicle's speed.
     CyclicGrowth {
@@ -157,7 +168,7 @@ pub static SETTINGS: [Setting; 12] = [
     Setting { name: "modes", option: "modes", unit: "", min: 1.0, max: 1e4, whole: true, list: false, meaning: "Fourier modes from 1 to this" },
     Setting { name: "from", option: "from", unit: "s", min: 0.0, max: 1e7, whole: false, list: false, meaning: "start of the fit" },
     Setting { name: "smallest", option: "smallest", unit: "m", min: 1e-12, max: 1e3, whole: false, list: false, meaning: "amplitude under which a mode is lost in rounding" },
-    Setting { name: "largest", option: "largest", unit: "m", min: 1e-12, max: 1e3, whole: false, list: false, meaning: "deviation of a headway above which the regime is not linear" },
+    Setting { name: "nonlinearity", option: "nonlinearity", unit: "", min: 1e-12, max: 1e3, whole: false, list: false, meaning: "share of what is not linear in a mode's motion above which it is left out" },
     Setting { name: "periods", option: "periods", unit: "", min: 2.0, max: 1e6, whole: true, list: false, meaning: "number of periods fitted" },
 ];
 
@@ -220,7 +231,7 @@ impl Measurement {
             Self::FlowMap { every, bins: 100, window: 18.63 },
             Self::Flow { every, window: 5.0, at: None },
             Self::Modes { every, modes: None, lane: 1 },
-            Self::Growth { every: 0.5, modes: None, lane: 1, from: None, smallest: 1e-9, largest: 0.5 },
+            Self::Growth { every: 0.5, modes: None, lane: 1, from: None, smallest: 1e-9, nonlinearity: 0.01 },
             Self::CyclicGrowth { vehicle: 1, periods: 5 },
             Self::Equilibrium { every },
             Self::Events {},
@@ -417,12 +428,6 @@ impl Measurement {
                 _ => Ok(()),
             }?;
         }
-        if let Self::Growth { smallest, largest, .. } = self
-            && smallest >= largest
-        {
-            return Err(Invalid::new("smallest", smallest, format!("less than largest, {largest} m"))
-                .within("growth"));
-        }
         Ok(())
     }
 
@@ -447,12 +452,12 @@ impl Measurement {
             Self::Modes { every, modes, lane } => {
                 Box::new(Modes::new(steps(every), modes.unwrap_or_default(), lane - 1))
             }
-            Self::Growth { every, modes, lane, from, smallest, largest } => Box::new(Growth::new(
+            Self::Growth { every, modes, lane, from, smallest, nonlinearity } => Box::new(Growth::new(
                 steps(every),
                 modes.unwrap_or_default(),
                 lane - 1,
                 steps(from.unwrap_or_default()),
-                smallest..largest,
+                Linear { smallest, nonlinearity },
             )),
             Self::CyclicGrowth { vehicle, periods } => Box::new(CyclicGrowth::new(vehicle - 1, periods)),
             Self::Equilibrium { every } => Box::new(Equilibria::new(steps(every))),
@@ -543,7 +548,7 @@ mod tests {
             (r#"{"table":"flow","window":-1}"#, &["flow: window", "-1"]),
             (r#"{"table":"modes","modes":26}"#, &["modes: modes", "26", "at most 25"]),
             (r#"{"table":"growth","from":-1}"#, &["growth: from", "-1"]),
-            (r#"{"table":"growth","smallest":1}"#, &["growth: smallest", "1", "less than largest, 0.5 m"]),
+            (r#"{"table":"growth","nonlinearity":0}"#, &["growth: nonlinearity", "0", "from 0.000000000001"]),
             (r#"{"table":"cyclic-growth","vehicle":99}"#, &["cyclic-growth: vehicle", "99", "at most 50"]),
             (r#"{"table":"cyclic-growth","periods":1}"#, &["cyclic-growth: periods", "1", "from 2"]),
         ] {

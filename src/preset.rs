@@ -52,7 +52,7 @@ pub fn presets() -> Vec<Preset> {
     let mut mixed = lanes(60, 2, Start::Uniform, (0.1, 0.1));
     mixed.driver.reaction_time = 0.3;
     mixed.exceptions =
-        vec![exception("20%:max-speed=25,vehicle-length=12,min-headway=15"), exception("10%:sensitivity=2")];
+        vec![exception("20%:max-speed=25,vehicle-length=8,min-headway=12"), exception("10%:sensitivity=2")];
     vec![
         Preset {
             name: "instant",

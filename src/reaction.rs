@@ -65,6 +65,12 @@ impl Delays {
         self.delay[j] as usize
     }
 
+    /// The delays in force of all drivers.
+    #[inline]
+    pub fn all(&self) -> &[u32] {
+        &self.delay
+    }
+
     /// The longest target: how far back anyone may come to look.
     pub fn longest_target(&self) -> usize {
         self.target.iter().copied().max().unwrap_or(0) as usize

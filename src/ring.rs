@@ -12,11 +12,9 @@
 //! *Behind* and *ahead* in a lane are links of a circular list. *Beside*: the vehicle next ahead in an
 //! adjacent lane; the one behind that is at most alongside. Cost: O(1) a vehicle and step, plus passes and changes.
 
+use crate::history::padded;
 use crate::random::{Generator, Stream};
 use crate::scenario::{Scenario, Start};
-
-/// No vehicle.
-pub(crate) const NONE: u32 = u32::MAX;
 
 /// An adjacent lane: towards lane 1, or away from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,13 +40,36 @@ impl Side {
 }
 
 /// The vehicle next ahead in an adjacent lane, and its offset.
+///
+/// Where there is none it is the vehicle itself with an infinite offset: +∞ for an empty lane, −∞ for no lane. So
+/// `offset + (s_i − s_j)` needs no case.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beside {
-    pub(crate) vehicle: u32,
-    pub(crate) offset: f64,
+    vehicle: u32,
+    offset: f64,
 }
 
-const NOBODY: Beside = Beside { vehicle: NONE, offset: f64::INFINITY };
+impl Beside {
+    /// The vehicle, if there is one.
+    #[inline]
+    pub(crate) fn vehicle(self) -> Option<usize> {
+        self.offset.is_finite().then_some(self.vehicle as usize)
+    }
+
+    /// Distance from j to it, given everyone's displacements at some time; infinite where there is none.
+    #[inline(always)]
+    pub(crate) fn distance(self, j: usize, s: &[f64]) -> f64 {
+        self.offset + (s[self.vehicle as usize] - s[j])
+    }
+
+    fn empty_lane(j: usize) -> Self {
+        Self { vehicle: j as u32, offset: f64::INFINITY }
+    }
+
+    fn no_lane(j: usize) -> Self {
+        Self { vehicle: j as u32, offset: f64::NEG_INFINITY }
+    }
+}
 
 /// Vehicle `passer` has gone past `passed`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,12 +89,14 @@ pub struct Ring {
     behind: Vec<u32>,
     /// Offset of the leader: its headway at the start, for vehicles that still follow the same one.
     offset: Vec<f64>,
-    beside: [Vec<Beside>; 2],
+    beside: Vec<[Beside; 2]>,
+    /// The step before which nobody can come past a vehicle or be passed by it; see [`Ring::follow_motion`].
+    watch: Vec<u64>,
     /// Vehicles per lane.
     count: Vec<usize>,
-    /// Some vehicle of each lane.
-    member: Vec<u32>,
-    /// No vehicle has changed lane yet: in a lane, the leader of j is j + 1, but for the last.
+    /// Some vehicle of each lane that has one.
+    member: Vec<Option<usize>>,
+    /// On one lane the leader of j is j + 1 for ever, but for the last.
     in_order: bool,
 }
 
@@ -90,10 +113,11 @@ impl Ring {
             ahead: Vec::with_capacity(n),
             behind: Vec::with_capacity(n),
             offset: Vec::with_capacity(n),
-            beside: [Vec::new(), Vec::new()],
-            member: vec![NONE; scenario.lanes],
+            beside: Vec::new(),
+            watch: Vec::new(),
+            member: vec![None; scenario.lanes],
             count,
-            in_order: true,
+            in_order: scenario.lanes == 1,
         };
         let drivers = if scenario.start == Start::Random { scenario.drivers() } else { Vec::new() };
         let mut generator = Generator::new(scenario.seed, Stream::Start);
@@ -103,7 +127,7 @@ impl Ring {
                 continue;
             }
             let first = ring.start.len();
-            ring.member[lane] = first as u32;
+            ring.member[lane] = Some(first);
             for k in 0..vehicles {
                 ring.lane.push(lane as u8);
                 ring.ahead.push((first + if k + 1 == vehicles { 0 } else { k + 1 }) as u32);
@@ -124,8 +148,12 @@ impl Ring {
             }
         }
         if scenario.lanes > 1 {
-            ring.beside = [vec![NOBODY; n], vec![NOBODY; n]];
+            ring.beside = (0..n).map(|j| [Beside::no_lane(j); 2]).collect();
+            ring.watch = vec![0; n];
         }
+        // Padding that kernels may read: vehicles that follow themselves.
+        ring.offset.resize(padded(n), length);
+        ring.ahead.extend(n as u32..padded(n) as u32);
         ring
     }
 
@@ -170,17 +198,17 @@ impl Ring {
     pub fn behind(&self, j: usize) -> usize {
         self.behind[j] as usize
     }
-    /// Offsets of the leaders, m.
+    /// Offsets of the leaders, m (padded).
     #[inline]
     pub(crate) fn offsets(&self) -> &[f64] {
         &self.offset
     }
-    /// The leaders.
+    /// The leaders (padded).
     #[inline]
     pub(crate) fn leaders(&self) -> &[u32] {
         &self.ahead
     }
-    /// Whether, in each lane, the leader of j is still j + 1 but for the last.
+    /// Whether the leader of j is j + 1, of the last vehicle the first: on one lane.
     pub(crate) fn is_in_order(&self) -> bool {
         self.in_order
     }
@@ -194,9 +222,15 @@ impl Ring {
     pub fn length(&self) -> f64 {
         self.length
     }
+    /// The next vehicle ahead in the adjacent lane on that side.
     #[inline]
     pub(crate) fn beside(&self, j: usize, side: Side) -> Beside {
-        self.beside[side as usize][j]
+        self.beside[j][side as usize]
+    }
+    /// The next vehicles ahead in the adjacent lanes, towards lane 1 and away from it, of all vehicles.
+    #[inline]
+    pub(crate) fn all_beside(&self) -> &[[Beside; 2]] {
+        &self.beside
     }
 
     /// The lane on that side of vehicle `j`, if there is one.
@@ -259,47 +293,48 @@ impl Ring {
     /// Finds every vehicle's beside anew, lane by lane; O(N) after a search for one vehicle a lane.
     pub(crate) fn find_beside(&mut self, s: &[f64]) {
         for lane in 0..self.count.len() {
+            let Some(first) = self.member[lane] else { continue };
             for side in Side::BOTH {
-                let Some(first) = self.first_in(lane) else { continue };
                 let Some(target) = self.lane_beside(first, side) else { continue };
                 let mut j = first;
                 let mut found = self.search(first, target, s);
                 loop {
-                    self.beside[side as usize][j] = found;
+                    self.beside[j][side as usize] = found;
                     let next = self.ahead(j);
                     if next == first {
                         break;
                     }
-                    if found.vehicle != NONE {
-                        // From j the one ahead of `next` is at or ahead of `found`.
-                        let i = found.vehicle as usize;
-                        let about = found.offset + (s[i] - s[j]) - self.headway(j, s);
-                        found = self.walk_ahead(next, i, about, s);
-                    }
+                    // The one ahead of `next` is the one ahead of j, or ahead of that.
+                    found = match found.vehicle() {
+                        Some(i) => self.walk_ahead(next, i, found.distance(j, s) - self.headway(j, s), s),
+                        None => Beside::empty_lane(next),
+                    };
                     j = next;
                 }
             }
         }
+        self.watch_all();
     }
 
-    fn first_in(&self, lane: usize) -> Option<usize> {
-        (self.member[lane] != NONE).then_some(self.member[lane] as usize)
+    /// Has every vehicle looked at closely in the next [`Self::follow_motion`]: after a jump in positions, or where
+    /// someone may be faster from now on.
+    pub(crate) fn watch_all(&mut self) {
+        self.watch.fill(0);
     }
 
     /// The next vehicle ahead of j in a lane, by looking at all of them.
     fn search(&self, j: usize, lane: usize, s: &[f64]) -> Beside {
-        let Some(first) = self.first_in(lane) else { return NOBODY };
-        let mut best = (NOBODY, f64::INFINITY);
+        let mut best = Beside::empty_lane(j);
+        let Some(first) = self.member[lane] else { return best };
         let mut i = first;
         loop {
-            let offset = self.offset_of(i, j, s);
-            let distance = offset + (s[i] - s[j]);
-            if distance < best.1 {
-                best = (Beside { vehicle: i as u32, offset }, distance);
+            let seen = Beside { vehicle: i as u32, offset: self.offset_of(i, j, s) };
+            if seen.distance(j, s) < best.distance(j, s) {
+                best = seen;
             }
             i = self.ahead(i);
             if i == first {
-                return best.0;
+                return best;
             }
         }
     }
@@ -316,42 +351,44 @@ impl Ring {
     }
 
     /// Brings beside up to date after the vehicles have moved, and tells who was passed by whom, in order of the
-    /// passed.
-    pub(crate) fn follow_motion(&mut self, s: &[f64], passes: &mut Vec<Pass>) {
-        for j in 0..self.lane.len() {
-            for side in Side::BOTH {
-                let Beside { vehicle, offset } = self.beside[side as usize][j];
-                if vehicle == NONE {
-                    continue;
-                }
-                let i = vehicle as usize;
-                let distance = offset + (s[i] - s[j]);
-                if distance <= 0.0 {
-                    // j has passed i.
-                    let next = self.ahead(i);
-                    let found = self.walk_ahead(j, next, distance + self.headway(i, s), s);
-                    self.beside[side as usize][j] = found;
-                    continue;
-                }
-                // The vehicle behind i was at most alongside; anywhere near now, it is looked at closely.
-                let follower = self.behind(i);
-                if distance - self.headway(follower, s) > -NEAR {
-                    self.follow_passers(j, side, distance, s, passes);
-                }
+    /// passed. No two vehicles come closer to each other by more than `reach` metres in a step, so that one with
+    /// nobody near need not be looked at for a while.
+    pub(crate) fn follow_motion(&mut self, step: u64, reach: f64, s: &[f64], passes: &mut Vec<Pass>) {
+        for j in 0..self.watch.len() {
+            if self.watch[j] > step {
+                continue;
             }
+            let nearest = Side::BOTH.map(|side| self.follow_side(j, side, s, passes));
+            let distance = nearest[0].min(nearest[1]) - NEAR;
+            // `as` saturates: infinity, where no vehicle is in reach at all, is the largest number of steps.
+            self.watch[j] = step.saturating_add(((0.999 * distance / reach) as u64).max(1));
         }
     }
 
-    /// Vehicles behind `beside` that have gone past j, one after the other.
-    fn follow_passers(&mut self, j: usize, side: Side, mut distance: f64, s: &[f64], passes: &mut Vec<Pass>) {
+    /// [`Self::follow_motion`] for one vehicle and side; the distance to the nearest vehicle there, ahead or behind.
+    fn follow_side(&mut self, j: usize, side: Side, s: &[f64], passes: &mut Vec<Pass>) -> f64 {
+        let Some(mut i) = self.beside[j][side as usize].vehicle() else { return f64::INFINITY };
+        let mut distance = self.beside[j][side as usize].distance(j, s);
+        if distance <= 0.0 {
+            // j has passed i, and perhaps more.
+            let found = self.walk_ahead(j, self.ahead(i), distance + self.headway(i, s), s);
+            self.beside[j][side as usize] = found;
+            i = found.vehicle as usize;
+            distance = found.distance(j, s);
+        }
         loop {
-            let i = self.beside[side as usize][j].vehicle as usize;
             let follower = self.behind(i);
             let about = distance - self.headway(follower, s);
-            let Some(offset) = self.offset_if_ahead(follower, j, s, about) else { return };
-            self.beside[side as usize][j] = Beside { vehicle: follower as u32, offset };
+            if about <= -NEAR {
+                return distance.min(-about);
+            }
+            // The one behind i was at most alongside; now it is looked at exactly.
+            let Some(offset) = self.offset_if_ahead(follower, j, s, about) else { return 0.0 };
+            let found = Beside { vehicle: follower as u32, offset };
+            self.beside[j][side as usize] = found;
             passes.push(Pass { passer: follower as u32, passed: j as u32 });
-            distance = offset + (s[follower] - s[j]);
+            i = follower;
+            distance = found.distance(j, s);
         }
     }
 
@@ -366,16 +403,16 @@ impl Ring {
         crossed: &mut Vec<Pass>,
     ) {
         let to = self.lane_beside(m, side).expect("an attempt aims at a lane that exists");
-        let front = self.beside[side as usize][m].vehicle;
+        let front = self.beside(m, side).vehicle();
         self.announce_leaving(m, s);
         let leader = self.leave(m, s);
         self.enter(m, to, front, s);
-        self.in_order = false;
-        self.beside[side.opposite() as usize][m] = match leader {
+        self.beside[m][side.opposite() as usize] = match leader {
             Some(i) => Beside { vehicle: i as u32, offset: self.offset_of(i, m, s) },
-            None => NOBODY,
+            None => Beside::empty_lane(m),
         };
-        self.beside[side as usize][m] = self.find_in_far_lane(m, side, s);
+        self.beside[m][side as usize] = self.find_in_far_lane(m, side, s);
+        self.watch[m] = 0;
         for listeners in Side::BOTH {
             self.announce_arrival(m, listeners, s);
         }
@@ -386,14 +423,14 @@ impl Ring {
     fn announce_leaving(&mut self, m: usize, s: &[f64]) {
         let leader = self.ahead(m);
         for side in Side::BOTH {
-            let toward = side.opposite() as usize;
+            let toward = side.opposite();
             let mut walk = self.back_from_beside(m, side);
             while let Some(j) = walk.step(&self.behind) {
-                if self.beside[toward][j].vehicle != m as u32 {
+                if self.beside(j, toward).vehicle() != Some(m) {
                     break;
                 }
-                self.beside[toward][j] = if leader == m {
-                    NOBODY
+                self.beside[j][toward as usize] = if leader == m {
+                    Beside::empty_lane(j)
                 } else {
                     Beside { vehicle: leader as u32, offset: self.offset_of(leader, j, s) }
                 };
@@ -401,19 +438,26 @@ impl Ring {
         }
     }
 
-    /// Who is behind m in the lane on that side gets m beside, as far back as m is the next ahead.
+    /// Who is behind m in the lane on that side gets m beside, as far back as m is the next ahead; who is ahead of m
+    /// and behind its leader has m near from now on.
     fn announce_arrival(&mut self, m: usize, side: Side, s: &[f64]) {
-        let toward = side.opposite() as usize;
+        let toward = side.opposite();
         let mut walk = self.back_from_beside(m, side);
         while let Some(j) = walk.step(&self.behind) {
-            let now = self.beside[toward][j];
-            let offset = self.offset_of(m, j, s);
-            let farther = now.vehicle != NONE
-                && now.offset + (s[now.vehicle as usize] - s[j]) <= offset + (s[m] - s[j]);
-            if farther {
+            let arrived = Beside { vehicle: m as u32, offset: self.offset_of(m, j, s) };
+            if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
                 break;
             }
-            self.beside[toward][j] = Beside { vehicle: m as u32, offset };
+            self.beside[j][toward as usize] = arrived;
+            self.watch[j] = 0;
+        }
+        let Some(mut j) = self.beside(m, side).vehicle() else { return };
+        for _ in 0..self.count[self.lane(j)] {
+            if self.beside(j, toward).vehicle() != Some(self.ahead(m)) {
+                break;
+            }
+            self.watch[j] = 0;
+            j = self.ahead(j);
         }
     }
 
@@ -430,11 +474,9 @@ impl Ring {
 
     /// The vehicles of the lane on that side of m, once round, backwards from the one that is at most alongside.
     fn back_from_beside(&self, m: usize, side: Side) -> BackWalk {
-        let vehicle = self.beside[side as usize][m].vehicle;
-        if vehicle == NONE {
-            BackWalk { next: 0, left: 0 }
-        } else {
-            BackWalk { next: self.behind(vehicle as usize), left: self.count[self.lane(vehicle as usize)] }
+        match self.beside(m, side).vehicle() {
+            Some(i) => BackWalk { next: self.behind(i), left: self.count[self.lane(i)] },
+            None => BackWalk { next: 0, left: 0 },
         }
     }
 
@@ -443,45 +485,38 @@ impl Ring {
         let (from, leader, follower) = (self.lane(m), self.ahead(m), self.behind(m));
         self.count[from] -= 1;
         if leader == m {
-            self.member[from] = NONE;
+            self.member[from] = None;
             return None;
         }
         self.ahead[follower] = leader as u32;
         self.behind[leader] = follower as u32;
         self.offset[follower] = self.offset_of(leader, follower, s);
-        if self.member[from] == m as u32 {
-            self.member[from] = leader as u32;
-        }
+        self.member[from] = Some(leader);
         Some(leader)
     }
 
     /// Puts m into a lane, behind `front`, or alone.
-    fn enter(&mut self, m: usize, to: usize, front: u32, s: &[f64]) {
+    fn enter(&mut self, m: usize, to: usize, front: Option<usize>, s: &[f64]) {
         self.lane[m] = to as u8;
         self.count[to] += 1;
-        if front == NONE {
-            (self.ahead[m], self.behind[m]) = (m as u32, m as u32);
-            self.member[to] = m as u32;
-        } else {
-            let front = front as usize;
-            let rear = self.behind(front);
-            (self.ahead[m], self.behind[m]) = (front as u32, rear as u32);
-            (self.behind[front], self.ahead[rear]) = (m as u32, m as u32);
-            self.offset[rear] = self.offset_of(m, rear, s);
-        }
-        self.offset[m] = self.offset_of(self.ahead(m), m, s);
+        self.member[to] = Some(m);
+        let front = front.unwrap_or(m);
+        let rear = if front == m { m } else { self.behind(front) };
+        (self.ahead[m], self.behind[m]) = (front as u32, rear as u32);
+        (self.behind[front], self.ahead[rear]) = (m as u32, m as u32);
+        self.offset[rear] = self.offset_of(m, rear, s);
+        self.offset[m] = self.offset_of(front, m, s);
     }
 
     /// The next vehicle ahead of m in the lane on that side, starting from what the vehicle behind m has beside it.
     fn find_in_far_lane(&self, m: usize, side: Side, s: &[f64]) -> Beside {
-        let Some(lane) = self.lane_beside(m, side) else { return NOBODY };
+        let Some(lane) = self.lane_beside(m, side) else { return Beside::no_lane(m) };
         let rear = self.behind(m);
-        let hint = self.beside[side as usize][rear];
-        if rear == m || hint.vehicle == NONE {
-            return self.search(m, lane, s);
+        let hint = self.beside(rear, side);
+        match hint.vehicle() {
+            Some(i) if rear != m => self.walk_ahead(m, i, hint.distance(rear, s) - self.headway(rear, s), s),
+            _ => self.search(m, lane, s),
         }
-        let i = hint.vehicle as usize;
-        self.walk_ahead(m, i, hint.offset + (s[i] - s[rear]) - self.headway(rear, s), s)
     }
 }
 

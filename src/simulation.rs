@@ -22,11 +22,12 @@ use crate::driver::Driver;
 use crate::error::Invalid;
 use crate::following::{Following, REFRESH};
 use crate::frustration::{ExponentialClock, Sampler, compared};
-use crate::history::History;
+use crate::history::{History, padded};
 use crate::random::{Generator, Stream};
 use crate::reaction::Delays;
-use crate::ring::{NONE, Pass, Ring, Side};
+use crate::ring::{Pass, Ring, Side};
 use crate::scenario::{Scenario, assign, check_min_headway};
+use crate::vector::Width;
 
 /// Two vehicles have touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +74,8 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     /// Braked vehicles and the step in which they are released.
     braked: Vec<(usize, u64)>,
     frustration: Vec<f64>,
+    /// r·dt of every driver.
+    frustration_step: Vec<f64>,
     lane_changes: Vec<u32>,
     sampler: S,
     passes: Vec<Pass>,
@@ -103,7 +106,7 @@ impl<S: Sampler> Simulation<S> {
         let drivers = scenario.drivers();
         let target = drivers.iter().map(|d| scenario.steps(d.reaction_time) as u32).collect();
         let delays = Delays::new(target);
-        let following = Following::new(&drivers);
+        let following = Following::new(&drivers, padded(n));
         let mut agenda = scenario.actions_in_time();
         agenda.reverse();
         let events = if scenario.lanes > 1 { 64 + n.min(4096) } else { 1 };
@@ -112,10 +115,11 @@ impl<S: Sampler> Simulation<S> {
             last_step: scenario.last_step(),
             ring: Ring::new(scenario),
             history: History::new(n, delays.longest_target()),
-            scene: vec![0.0; following.speeds().len()],
+            scene: vec![0.0; padded(n)],
             nudged: vec![0.0; n],
             braked: Vec::new(),
             frustration: vec![0.0; n],
+            frustration_step: Vec::with_capacity(n),
             lane_changes: vec![0; n],
             sampler: S::new(n, scenario.time_step, Generator::new(scenario.seed, Stream::LaneChanging)),
             passes: Vec::with_capacity(events),
@@ -192,9 +196,7 @@ impl<S: Sampler> Simulation<S> {
     }
     /// The next vehicle ahead in an adjacent lane; none in an empty lane or where there is no lane.
     pub fn adjacent(&self, j: usize, side: Side) -> Option<usize> {
-        self.ring.lane_beside(j, side)?;
-        let vehicle = self.ring.beside(j, side).vehicle;
-        (vehicle != NONE).then_some(vehicle as usize)
+        if self.scenario.lanes > 1 { self.ring.beside(j, side).vehicle() } else { None }
     }
     /// Position without wrapping: that at the start plus all displacements, m.
     pub fn unwrapped_position(&self, j: usize) -> f64 {
@@ -283,17 +285,29 @@ impl<S: Sampler> Simulation<S> {
 
     /// Stage 3: positions.
     fn forward(&mut self) {
-        let dt = self.scenario.time_step;
         let (old, new) = self.history.advance();
-        for ((new, old), v) in new.iter_mut().zip(old).zip(self.following.speeds()) {
-            *new = old + v * dt;
-        }
+        self.following.drive(old, self.scenario.time_step, new);
+        self.history.close();
     }
 
-    /// What everyone sees now, and the speeds that follow.
+    /// What everyone sees now, and the speeds that follow: the vehicle in front now, both where they were the
+    /// driver's delay ago.
     fn look(&mut self, refresh: bool) {
-        self.see();
-        self.following.respond(&self.scene, refresh);
+        let offset = self.ring.offsets();
+        match self.delays.common() {
+            Some(delay) if self.ring.is_in_order() => {
+                let seen = self.history.seen(delay);
+                self.following.respond_in_order(offset, seen, &mut self.scene, refresh);
+            }
+            common => {
+                let leaders = self.ring.leaders();
+                match common {
+                    Some(delay) => see_alike(offset, leaders, self.history.seen(delay), &mut self.scene),
+                    None => see_apart(offset, leaders, &self.history, &self.delays, &mut self.scene),
+                }
+                self.following.respond(&self.scene, refresh);
+            }
+        }
         if !self.braked.is_empty() {
             let step = self.step;
             self.braked.retain(|&(_, released)| released > step);
@@ -303,62 +317,25 @@ impl<S: Sampler> Simulation<S> {
         }
     }
 
-    /// Perceived headways: the vehicle in front now, both where they were the driver's delay ago.
-    fn see(&mut self) {
-        let n = self.drivers.len();
-        let (offset, leaders) = (self.ring.offsets(), self.ring.leaders());
-        let scene = &mut self.scene[..n];
-        match self.delays.common() {
-            Some(delay) if self.ring.is_in_order() => {
-                let seen = &self.history.seen(delay)[..n];
-                for ((scene, offset), pair) in scene.iter_mut().zip(offset).zip(seen.windows(2)) {
-                    *scene = offset + (pair[1] - pair[0]);
-                }
-                let mut end = 0;
-                for &count in self.ring.vehicles_per_lane() {
-                    end += count;
-                    if count > 0 {
-                        let (last, first) = (end - 1, end - count);
-                        scene[last] = offset[last] + (seen[first] - seen[last]);
-                    }
-                }
-            }
-            Some(delay) => {
-                let seen = &self.history.seen(delay)[..n];
-                for (j, scene) in scene.iter_mut().enumerate() {
-                    *scene = offset[j] + (seen[leaders[j] as usize] - seen[j]);
-                }
-            }
-            None => {
-                for (j, scene) in scene.iter_mut().enumerate() {
-                    let seen = self.history.seen(self.delays.of(j));
-                    *scene = offset[j] + (seen[leaders[j] as usize] - seen[j]);
-                }
-            }
-        }
-    }
-
     /// Stage 1.
     fn change_lanes(&mut self) {
         self.passes.clear();
         self.late_passes.clear();
-        self.ring.follow_motion(self.history.now(), &mut self.passes);
-        let dt = self.scenario.time_step;
+        let reach = self.top_speed * self.scenario.time_step;
+        self.ring.follow_motion(self.step, reach, self.history.now(), &mut self.passes);
         let mut next_pass = 0;
         for j in 0..self.drivers.len() {
-            let driver = &self.drivers[j];
+            let [outer, inner] = self.seen_beside(j);
             let own = self.following.perceived()[j];
-            let (outer, inner) = (self.seen_beside(j, Side::Outer), self.seen_beside(j, Side::Inner));
             let best = if outer > inner { outer } else { inner };
-            let mut frustration = compared(self.frustration[j], own, best, driver.frustration_rate * dt);
+            let mut frustration = compared(self.frustration[j], own, best, self.frustration_step[j]);
             while let Some(&pass) = self.passes.get(next_pass).filter(|p| p.passed as usize == j) {
                 next_pass += 1;
-                frustration += Self::count_pass(&self.ring, &mut self.events, pass, driver.pass_frustration);
+                frustration += self.count_pass(pass);
             }
-            if !self.late_passes.is_empty() {
-                for &pass in self.late_passes.iter().filter(|p| p.passed as usize == j) {
-                    frustration +=
-                        Self::count_pass(&self.ring, &mut self.events, pass, driver.pass_frustration);
+            for k in 0..self.late_passes.len() {
+                if self.late_passes[k].passed as usize == j {
+                    frustration += self.count_pass(self.late_passes[k]);
                 }
             }
             self.frustration[j] = frustration;
@@ -369,27 +346,25 @@ impl<S: Sampler> Simulation<S> {
     }
 
     /// Rule 3: a pass counts where the passer is in an adjacent lane now.
-    fn count_pass(ring: &Ring, events: &mut Vec<Event>, pass: Pass, pass_frustration: f64) -> f64 {
+    #[cold]
+    fn count_pass(&mut self, pass: Pass) -> f64 {
         let (passer, passed) = (pass.passer as usize, pass.passed as usize);
-        if ring.lane(passer).abs_diff(ring.lane(passed)) != 1 {
+        if self.ring.lane(passer).abs_diff(self.ring.lane(passed)) != 1 {
             return 0.0;
         }
-        events.push(Event::Pass { passer, passed });
-        pass_frustration
+        self.events.push(Event::Pass { passer, passed });
+        self.drivers[passed].pass_frustration
     }
 
-    /// Perceived headway in an adjacent lane: +∞ in an empty one, −∞ where there is no lane.
-    #[inline]
-    fn seen_beside(&self, j: usize, side: Side) -> f64 {
-        if self.ring.lane_beside(j, side).is_none() {
-            return f64::NEG_INFINITY;
-        }
-        let beside = self.ring.beside(j, side);
-        if beside.vehicle == NONE {
-            return f64::INFINITY;
-        }
-        let seen = self.history.seen(self.delays.of(j));
-        beside.offset + (seen[beside.vehicle as usize] - seen[j])
+    /// Perceived headways in the adjacent lanes: +∞ in an empty one, −∞ where there is no lane.
+    #[inline(always)]
+    fn seen_beside(&self, j: usize) -> [f64; 2] {
+        let seen = match self.delays.common() {
+            Some(delay) => self.history.seen(delay),
+            None => self.history.seen(self.delays.of(j)),
+        };
+        let [outer, inner] = self.ring.all_beside()[j];
+        [outer.distance(j, seen), inner.distance(j, seen)]
     }
 
     /// An attempt, aimed at the better adjacent lane.
@@ -401,13 +376,11 @@ impl<S: Sampler> Simulation<S> {
         let to = self.ring.lane_beside(j, side).expect("the better lane exists");
         let frustration = self.frustration[j];
         let s = self.history.now();
-        let beside = self.ring.beside(j, side);
         let gap = self.drivers[j].min_headway;
-        if beside.vehicle != NONE {
-            let ahead = beside.vehicle as usize;
+        let beside = self.ring.beside(j, side);
+        if let Some(ahead) = beside.vehicle() {
             let behind = self.ring.behind(ahead);
-            let free =
-                beside.offset + (s[ahead] - s[j]) > gap && self.ring.distance_behind(behind, j, s) > gap;
+            let free = beside.distance(j, s) > gap && self.ring.distance_behind(behind, j, s) > gap;
             if !free {
                 self.events.push(Event::Refused { vehicle: j, from, to, frustration });
                 return;
@@ -418,9 +391,10 @@ impl<S: Sampler> Simulation<S> {
         self.events.push(Event::LaneChange { vehicle: j, from, to, frustration });
         self.frustration[j] = 0.0;
         self.lane_changes[j] += 1;
-        self.clear_until = self.step;
         for vehicle in [follower, self.ring.behind(j), j] {
             self.look_again(vehicle);
+            let steps = self.steps_until_contact(self.clearance(vehicle));
+            self.clear_until = self.clear_until.min(self.step + steps);
         }
     }
 
@@ -434,9 +408,17 @@ impl<S: Sampler> Simulation<S> {
         }
     }
 
-    /// Headway at which a vehicle touches its leader, m.
-    fn contact(&self, j: usize) -> f64 {
-        0.5 * (self.drivers[j].vehicle_length + self.drivers[self.ring.ahead(j)].vehicle_length)
+    /// Distance between a vehicle and its leader, bumper to bumper, m: 0 or less where they touch.
+    fn clearance(&self, j: usize) -> f64 {
+        let contact =
+            0.5 * (self.drivers[j].vehicle_length + self.drivers[self.ring.ahead(j)].vehicle_length);
+        self.headway(j) - contact
+    }
+
+    /// How many steps two vehicles of that clearance (m) cannot touch: it shrinks by at most V·dt a step. The
+    /// factor leaves room for rounding.
+    fn steps_until_contact(&self, clearance: f64) -> u64 {
+        (0.999 * clearance / (self.top_speed * self.scenario.time_step)) as u64
     }
 
     /// Whether a vehicle has gone through its leader.
@@ -448,7 +430,7 @@ impl<S: Sampler> Simulation<S> {
     fn detect_collision(&mut self) {
         let mut closest = f64::INFINITY;
         for j in 0..self.drivers.len() {
-            let clearance = self.headway(j) - self.contact(j);
+            let clearance = self.clearance(j);
             closest = closest.min(clearance);
             if clearance <= 0.0 {
                 let (ahead, lane) = (self.ring.ahead(j), self.ring.lane(j));
@@ -457,9 +439,7 @@ impl<S: Sampler> Simulation<S> {
                 return;
             }
         }
-        // A headway shrinks by at most V·dt a step; the factor leaves room for rounding.
-        let steps = 0.999 * closest / (self.top_speed * self.scenario.time_step);
-        self.clear_until = self.step + (steps as u64).max(1);
+        self.clear_until = self.step + self.steps_until_contact(closest).max(1);
     }
 
     // ---- Acting ------------------------------------------------------------------------------------------------
@@ -490,6 +470,11 @@ impl<S: Sampler> Simulation<S> {
         }
         self.look(false);
         Ok(())
+    }
+
+    /// Computes with vectors of another width; results stay the same to the last bit.
+    pub fn set_width(&mut self, width: Width) {
+        self.following.set_width(width);
     }
 
     /// Moves the end of the run, s.
@@ -539,12 +524,13 @@ impl<S: Sampler> Simulation<S> {
         if self.step == 0 {
             self.ring.nudge_start(j, metres);
         } else {
-            self.history.now_mut()[j] += metres;
+            self.history.displace(j, metres);
             self.nudged[j] += metres;
         }
         self.following.invalidate(j);
         self.following.invalidate(self.ring.behind(j));
         self.clear_until = self.step;
+        self.ring.watch_all();
     }
 
     /// What is known of all drivers together.
@@ -552,7 +538,26 @@ impl<S: Sampler> Simulation<S> {
         self.following.find_common_law(&self.drivers);
         self.delays.find_common();
         self.history.look_back(self.delays.longest_target());
+        let dt = self.scenario.time_step;
+        self.frustration_step.clear();
+        self.frustration_step.extend(self.drivers.iter().map(|d| d.frustration_rate * dt));
         self.top_speed = self.drivers.iter().map(|d| d.max_speed).fold(0.0, f64::max);
         self.clear_until = self.step;
+        self.ring.watch_all();
+    }
+}
+
+/// Perceived headways of drivers with one delay; `seen` is the row of that delay.
+fn see_alike(offset: &[f64], leaders: &[u32], seen: &[f64], scene: &mut [f64]) {
+    for (j, ((scene, offset), &leader)) in scene.iter_mut().zip(offset).zip(leaders).enumerate() {
+        *scene = offset + (seen[leader as usize] - seen[j]);
+    }
+}
+
+/// Perceived headways of drivers each with a delay of their own.
+fn see_apart(offset: &[f64], leaders: &[u32], history: &History, delays: &Delays, scene: &mut [f64]) {
+    for (j, delay) in delays.all().iter().enumerate() {
+        let seen = history.seen(*delay as usize);
+        scene[j] = offset[j] + (seen[leaders[j] as usize] - seen[j]);
     }
 }

@@ -247,7 +247,7 @@ impl Part {
         let (runs, text) = if whole == 0 && header.line().as_bytes().starts_with(&bytes) {
             (BTreeMap::new(), header.line())
         } else {
-            let text = String::from_utf8_lossy(&bytes[..whole]);
+            let text = String::from_utf8_lossy(if whole == 0 { &bytes } else { &bytes[..whole] });
             let record = Record::read(&text).and_then(|record| {
                 record.check(&header.plan, header.shard)?;
                 Ok(record)

@@ -1,10 +1,14 @@
 //! Modal growth rates σ_q: the slope of ln|A_q(t)| in the linear regime, with its standard error.
 //!
-//! The linear window of a mode begins with the first state, from a given time on, whose headways all deviate by
-//! less than `largest`; it ends before the first state where one deviates by more, where the amplitude of the mode
-//! has sunk under `smallest` (rounding of positions makes headways of about 10⁻¹² m after ten kilometres), or
-//! where the lane is disturbed: by an action, or by a vehicle that changes lanes. In the window a mode of equal drivers is one complex
-//! exponential as soon as what the start excited beside the leading root has died away.
+//! What is not linear in the motion of mode q is, to second order, the product of other modes: the speed law gives
+//! it at most the share `(λ/V)·mean(δ²)/A_q` of the linear part, and the growth rate an error of at most 2c·sin(πq/N)
+//! times that. So a weak mode leaves the linear regime while the strong ones are still in it.
+//!
+//! The linear window of a mode begins with the first state, from a given time on, where that share is small; it
+//! ends before the first where it is large, where the amplitude has sunk into rounding (positions of ten kilometres
+//! make headways good to about 10⁻¹² m), or where the lane is disturbed: by an action, or by a vehicle that changes
+//! lanes. In the window a mode of equal drivers is one complex exponential, as soon as what the start excited beside
+//! the leading root has died away.
 
 use super::spectrum::Spectrum;
 use super::{Due, Probe, Schedule};
@@ -20,25 +24,22 @@ pub struct Growth {
     spectrum: Spectrum,
     lane: usize,
     from: u64,
-    /// From the smallest amplitude of a mode to the largest deviation of a headway, m.
-    linear: Range<f64>,
+    linear: Linear,
     times: Vec<f64>,
-    /// Largest deviation of a headway; NaN where the lane was disturbed since the row before.
-    largest: Vec<f64>,
+    /// (λ/V)·mean(δ²), m; NaN where the lane was disturbed since the row before.
+    second_order: Vec<f64>,
     amplitudes: Vec<Vec<f64>>,
 }
 
-/// Why a window ended.
-fn ended_by(largest: f64, amplitude: f64, linear: &Range<f64>) -> Option<&'static str> {
-    if largest.is_nan() {
-        Some("disturbed")
-    } else if largest > linear.end {
-        Some("left the linear regime")
-    } else if amplitude.is_nan() || amplitude < linear.start {
-        Some("sank into rounding")
-    } else {
-        None
-    }
+const NOT_LINEAR: &str = "left the linear regime";
+
+/// What counts as linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linear {
+    /// Smallest amplitude, m.
+    pub smallest: f64,
+    /// Largest share of what is not linear.
+    pub nonlinearity: f64,
 }
 
 /// Whether something was done to the traffic after the time `since`.
@@ -49,9 +50,9 @@ fn acted(simulation: &Simulation, since: f64) -> bool {
 }
 
 impl Growth {
-    /// Modes 1 to `modes` of a lane (from 0), amplitudes every so many steps from a step on; `linear` reaches from
-    /// the smallest amplitude to the largest deviation, m.
-    pub fn new(every: u64, modes: usize, lane: usize, from: u64, linear: Range<f64>) -> Self {
+    /// Modes 1 to `modes` of a lane (from 0), amplitudes every so many steps from a step on; `linear` says which of
+    /// them are fitted.
+    pub fn new(every: u64, modes: usize, lane: usize, from: u64, linear: Linear) -> Self {
         Self {
             schedule: Schedule::new(every),
             spectrum: Spectrum::new(lane, modes),
@@ -59,20 +60,34 @@ impl Growth {
             from,
             linear,
             times: Vec::new(),
-            largest: Vec::new(),
+            second_order: Vec::new(),
             amplitudes: vec![Vec::new(); modes],
+        }
+    }
+
+    /// Why a row is outside the linear window of a mode.
+    fn outside(&self, mode: usize, row: usize) -> Option<&'static str> {
+        let (second_order, amplitude) = (self.second_order[row], self.amplitudes[mode][row]);
+        if second_order.is_nan() {
+            Some("disturbed")
+        } else if amplitude.is_nan() || amplitude < self.linear.smallest {
+            Some("sank into rounding")
+        } else if second_order > self.linear.nonlinearity * amplitude {
+            Some(NOT_LINEAR)
+        } else {
+            None
         }
     }
 
     /// The rows of a mode's linear window, and what ended it.
     fn window(&self, mode: usize) -> (Range<usize>, &'static str) {
-        let ends = |row: usize| ended_by(self.largest[row], self.amplitudes[mode][row], &self.linear);
         let rows = self.times.len();
-        let Some(first) = (0..rows).find(|&row| ends(row) != Some("left the linear regime")) else {
+        let Some(first) = (0..rows).find(|&row| self.outside(mode, row) != Some(NOT_LINEAR)) else {
             return (0..0, "never in the linear regime");
         };
-        let end = (first..rows).find(|&row| ends(row).is_some());
-        (first..end.unwrap_or(rows), end.and_then(ends).unwrap_or("end of the run"))
+        let end = (first..rows).find(|&row| self.outside(mode, row).is_some());
+        let why = end.and_then(|row| self.outside(mode, row)).unwrap_or("end of the run");
+        (first..end.unwrap_or(rows), why)
     }
 }
 
@@ -86,7 +101,7 @@ impl Probe for Growth {
             return;
         }
         let again = due == Due::Again;
-        let replaced = if again { self.largest.pop() } else { None };
+        let replaced = if again { self.second_order.pop() } else { None };
         if again {
             self.times.pop();
         }
@@ -95,7 +110,7 @@ impl Probe for Growth {
             && !replaced.is_some_and(f64::is_nan)
             && !acted(simulation, self.times.last().copied().unwrap_or(0.0));
         self.times.push(simulation.time());
-        self.largest.push(if same || rows == 0 { self.spectrum.largest } else { f64::NAN });
+        self.second_order.push(if same || rows == 0 { self.spectrum.second_order } else { f64::NAN });
         for (column, &amplitude) in self.amplitudes.iter_mut().zip(&self.spectrum.amplitudes) {
             column.truncate(rows);
             column.push(amplitude);

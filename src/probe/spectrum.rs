@@ -12,6 +12,8 @@ pub(super) struct Spectrum {
     pub amplitudes: Vec<f64>,
     /// Largest |δ_k|, m.
     pub largest: f64,
+    /// (λ/V)·mean of δ_k², m: the second order of the speed law against its first, before division by an amplitude.
+    pub second_order: f64,
     /// Vehicles in the lane from the lowest number on, downstream.
     order: Vec<usize>,
     /// Their drivers and h_k(v∞).
@@ -27,6 +29,7 @@ impl Spectrum {
             lane,
             amplitudes: vec![f64::NAN; modes],
             largest: f64::NAN,
+            second_order: f64::NAN,
             order: Vec::new(),
             drivers: Vec::new(),
             equilibrium: Vec::new(),
@@ -43,6 +46,8 @@ impl Spectrum {
         }
         let n = self.order.len();
         self.largest = self.deviations(simulation).map(f64::abs).fold(0.0, f64::max);
+        let squares = self.deviations(simulation).zip(&self.drivers);
+        self.second_order = squares.map(|(x, d)| d.sensitivity / d.max_speed * x * x).sum::<f64>() / n as f64;
         for q in 1..=self.amplitudes.len() {
             if 2 * q > n {
                 self.amplitudes[q - 1] = f64::NAN;
