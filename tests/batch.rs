@@ -320,6 +320,45 @@ fn a_summary_over_time_counts_the_runs_that_go_on() {
     }
 }
 
+/// The columns are known before anything has run, for every table that there is.
+#[test]
+fn every_measurement_has_the_columns_that_were_announced() {
+    let scenario = Scenario { until: 2.0, ..scenario() };
+    for measurement in Measurement::all() {
+        let plan = Plan::new(scenario.clone(), vec![], 2, measurement.clone()).unwrap();
+        let mut probes = [measurement.probe(&scenario).unwrap()];
+        let mut simulation = ringroad::simulation::Simulation::new(&scenario).unwrap();
+        ringroad::probe::measure(&mut simulation, &mut probes, &mut |_| true);
+        let names = |columns: &[ringroad::table::Column]| -> Vec<String> {
+            columns.iter().map(|c| c.name.clone()).collect()
+        };
+        assert_eq!(names(&plan.columns()), names(probes[0].table().columns()), "{}", measurement.name());
+        let (runs, header) = (all(&plan), Header::new(plan.clone(), Shard::default(), false));
+        let back = Record::read(&record::write(&header, &runs)).unwrap();
+        assert_eq!(csv(&plan, &back.runs), csv(&plan, &runs), "{}", measurement.name());
+        if plan.check_summary().is_ok() {
+            plan.summary(&runs).unwrap();
+        }
+    }
+}
+
+/// N equal drivers in equilibrium drive at v∞ without end: a uniform start gives the fundamental diagram.
+#[test]
+fn a_grid_over_density_is_the_fundamental_diagram() {
+    let scenario = Scenario { until: 20.0, ..Scenario::default() };
+    let vary = varied(&["vehicles=10:130:20", "sensitivity=0.5,1,2"]);
+    let plan = Plan::new(scenario, vary, 1, Measurement::named("outcome").unwrap()).unwrap();
+    let table = plan.table(&all(&plan));
+    let flows = table.floats("mean_flow_veh_per_s").unwrap();
+    assert_eq!(flows.len(), 21);
+    for (number, flow) in flows.iter().enumerate() {
+        let run = plan.scenario(number as u64);
+        let theory = run.driver.flow(run.vehicles as f64 / run.length);
+        assert!((flow - theory).abs() < 1e-12, "{number}: {flow} {theory}");
+    }
+    assert_eq!(table.floats("speed_deviation_m_per_s").unwrap(), [0.0; 21]);
+}
+
 #[test]
 fn it_can_be_cancelled_within_a_run_and_between_runs() {
     let plan = small();
