@@ -188,7 +188,7 @@ fn compute(
     let mut runs = part.as_mut().map(|part| std::mem::take(&mut part.runs)).unwrap_or_default();
     let all: Vec<u64> = header.shard.numbers(plan).collect();
     let (done, open): (Vec<u64>, Vec<u64>) = all.iter().partition(|n| runs.contains_key(n));
-    let work = |numbers: &[u64]| numbers.iter().map(|&n| plan.work(n)).sum::<u64>();
+    let work = |numbers: &[u64]| numbers.iter().map(|&n| plan.work(n)).fold(0, u64::saturating_add);
     let bar = progress::bar(work(&all));
     bar.set_position(work(&done));
     bar.reset_eta();
