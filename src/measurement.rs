@@ -32,7 +32,7 @@ use serde_json::{Map, Value};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "table", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Measurement {
-    /// A run in one row, at its end.
+    /// A run in one row; it is there when the run has ended.
     Outcome {},
     /// The whole ring, a row for each time.
     Overview {

@@ -2,7 +2,7 @@
 //! [`Table`] at any time.
 //!
 //! A probe's rows depend on the states that it saw and on nothing else; so a table taken in mid-run is the one
-//! that a run with `until` at that time gives.
+//! that a run with `until` at that time gives. (An outcome alone waits for the end.)
 //!
 //! | file | measurement |
 //! |---|---|

@@ -118,7 +118,8 @@ impl Probe for Overview {
     }
 }
 
-/// The probe of the table `outcome`.
+/// The probe of the table `outcome`: no row before the run has ended, since looking at every step would take longer
+/// than the step.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     ring: (f64, f64),
