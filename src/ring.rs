@@ -102,7 +102,7 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// The start of a valid scenario, before any nudge. Beside is not known yet: see [`Self::find_beside`].
+    /// The start of a valid scenario, before any nudge. Beside is not known yet: see `find_beside`.
     pub fn new(scenario: &Scenario) -> Self {
         let n = scenario.vehicles;
         let length = scenario.length;
@@ -485,7 +485,7 @@ impl Ring {
             let arrived = Beside { vehicle: m as u32, offset: self.offset_of(m, j, s) };
             if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
                 if walk.may_be_alongside() {
-                    self.watch[j] = 0;
+                    self.watch[j] = f64::NEG_INFINITY;
                     continue;
                 }
                 break;
