@@ -27,9 +27,11 @@
 //! | [`vector`] | vectors as wide as the machine has them |
 //! | [`ring`] | who is ahead, who passed |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
+//! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
 //! | [`table`] | columns, units, CSV |
 
 pub mod action;
+pub mod batch;
 pub mod driver;
 pub mod error;
 pub mod exp;

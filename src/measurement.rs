@@ -17,6 +17,7 @@ use crate::probe::{
     growth::{Growth, Linear},
     lanes::Lanes,
     modes::Modes,
+    overview::{Outcome, Overview},
     speed_map::SpeedMap,
     speeds::Speeds,
     trajectories::Trajectories,
@@ -31,6 +32,13 @@ use serde_json::{Map, Value};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "table", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Measurement {
+    /// A run in one row; it is there when the run has ended.
+    Outcome {},
+    /// The whole ring, a row for each time.
+    Overview {
+        /// Time between rows, s.
+        every: f64,
+    },
     /// Every vehicle's state, a row for each vehicle and time.
     Trajectories {
         /// Time between rows, s.
@@ -217,7 +225,7 @@ fn number_value(x: f64) -> Value {
 
 impl Measurement {
     /// Every measurement with its default settings, in the order in which people read them.
-    pub fn all() -> [Self; 13] {
+    pub fn all() -> [Self; 15] {
         let every = 1.0;
         [
             Self::Trajectories { every },
@@ -233,6 +241,8 @@ impl Measurement {
             Self::Lanes { every },
             Self::Drivers { every },
             Self::Vehicles { every },
+            Self::Overview { every },
+            Self::Outcome {},
         ]
     }
 
@@ -262,7 +272,14 @@ impl Measurement {
             Self::Lanes { .. } => "lanes",
             Self::Drivers { .. } => "drivers",
             Self::Vehicles { .. } => "vehicles",
+            Self::Overview { .. } => "overview",
+            Self::Outcome {} => "outcome",
         }
+    }
+
+    /// Time between rows, s, where they come at regular times.
+    pub fn every(&self) -> Option<f64> {
+        self.to_map().get("every").and_then(Value::as_f64)
     }
 
     /// The settings that this measurement has.
@@ -463,6 +480,8 @@ impl Measurement {
             Self::Lanes { every } => Box::new(Lanes::new(steps(every))),
             Self::Drivers { every } => Box::new(Drivers::new(steps(every))),
             Self::Vehicles { every } => Box::new(Vehicles::new(steps(every))),
+            Self::Overview { every } => Box::new(Overview::new(scenario, steps(every))),
+            Self::Outcome {} => Box::new(Outcome::new(scenario)),
         })
     }
 
@@ -477,6 +496,8 @@ impl Measurement {
             }
             Self::Vehicles { every } => (every, 4 * scenario.vehicles),
             Self::Flow { every, .. } => (every, 2),
+            Self::Overview { every } => (every, 6),
+            Self::Outcome {} => (scenario.until.max(1.0), 8),
             Self::Lanes { every } | Self::Equilibrium { every } | Self::Drivers { every } => {
                 (every, 8 * scenario.lanes)
             }
