@@ -156,9 +156,12 @@ proptest! {
         let mut simulation = Simulation::new(&scenario).unwrap();
         let mut states = Vec::new();
         loop {
-            for action in live.iter().filter(|a: &&Action| scenario.steps(a.at) == simulation.step_index()) {
+            let step = simulation.step_index();
+            for action in live.iter().filter(|a: &&Action| scenario.steps(a.at) == step) {
                 let before = bits(&simulation);
-                if simulation.act(action.clone()).is_err() {
+                let refused = simulation.act(action.clone()).is_err();
+                prop_assert!(refused || simulation.collision().is_none(), "nothing can be done after a collision");
+                if refused {
                     prop_assert_eq!(&bits(&simulation), &before, "a refused action changes nothing");
                 }
             }
