@@ -35,6 +35,11 @@ impl History {
         &self.data[start..start + self.width]
     }
 
+    /// All rows one after the other, and where: the present row, the number of rows, the numbers in each.
+    pub(crate) fn rows(&self) -> (&[f64], [u32; 3]) {
+        (&self.data, [self.head as u32, self.rows as u32, self.width as u32])
+    }
+
     /// The displacement of one vehicle `delay` steps ago.
     #[inline]
     pub fn at(&self, delay: usize, vehicle: usize) -> f64 {

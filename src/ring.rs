@@ -90,8 +90,9 @@ pub struct Ring {
     /// Offset of the leader: its headway at the start, for vehicles that still follow the same one.
     offset: Vec<f64>,
     beside: Vec<[Beside; 2]>,
-    /// The step before which nobody can come past a vehicle or be passed by it; see [`Ring::follow_motion`].
-    watch: Vec<u64>,
+    /// The reading of the odometer before which nobody can come past a vehicle or be passed by it; see
+    /// [`Ring::follow_motion`].
+    watch: Vec<f64>,
     /// Vehicles per lane.
     count: Vec<usize>,
     /// Some vehicle of each lane that has one.
@@ -101,7 +102,7 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// The start of a valid scenario, before any nudge. Beside is not known yet: see [`Self::find_beside`].
+    /// The start of a valid scenario, before any nudge. Beside is not known yet: see `find_beside`.
     pub fn new(scenario: &Scenario) -> Self {
         let n = scenario.vehicles;
         let length = scenario.length;
@@ -149,7 +150,7 @@ impl Ring {
         }
         if scenario.lanes > 1 {
             ring.beside = (0..n).map(|j| [Beside::no_lane(j); 2]).collect();
-            ring.watch = vec![0; n];
+            ring.watch = vec![f64::NEG_INFINITY; n];
         }
         // Padding that kernels may read: vehicles that follow themselves.
         ring.offset.resize(padded(n), length);
@@ -319,7 +320,7 @@ impl Ring {
     /// Has every vehicle looked at closely in the next [`Self::follow_motion`]: after a jump in positions, or where
     /// someone may be faster from now on.
     pub(crate) fn watch_all(&mut self) {
-        self.watch.fill(0);
+        self.watch.fill(f64::NEG_INFINITY);
     }
 
     /// The next vehicle ahead of j in a lane, by looking at all of them.
@@ -354,17 +355,17 @@ impl Ring {
     }
 
     /// Brings beside up to date after the vehicles have moved, and tells who was passed by whom, in order of the
-    /// passed. No two vehicles come closer to each other by more than `reach` metres in a step, so that one with
-    /// nobody near need not be looked at for a while.
-    pub(crate) fn follow_motion(&mut self, step: u64, reach: f64, s: &[f64], passes: &mut Vec<Pass>) {
+    /// passed. `odometer` (m) tells how far the fastest vehicle of each step has gone ahead of the slowest, summed over
+    /// the steps: no two come closer by more, so that a vehicle with nobody near need not be looked at for a
+    /// while.
+    pub(crate) fn follow_motion(&mut self, odometer: f64, s: &[f64], passes: &mut Vec<Pass>) {
         for j in 0..self.watch.len() {
-            if self.watch[j] > step {
+            if self.watch[j] > odometer {
                 continue;
             }
             let nearest = Side::BOTH.map(|side| self.follow_side(j, side, s, passes));
-            let distance = nearest[0].min(nearest[1]) - NEAR;
-            // `as` saturates: infinity, where no vehicle is in reach at all, is the largest number of steps.
-            self.watch[j] = step.saturating_add(((0.999 * distance / reach) as u64).max(1));
+            // The factor and `NEAR` leave room for rounding.
+            self.watch[j] = odometer + 0.999 * (nearest[0].min(nearest[1]) - NEAR);
         }
     }
 
@@ -446,7 +447,7 @@ impl Ring {
             None => Beside::empty_lane(m),
         };
         self.beside[m][side as usize] = self.find_in_far_lane(m, side, s);
-        self.watch[m] = 0;
+        self.watch[m] = f64::NEG_INFINITY;
         for listeners in Side::BOTH {
             self.announce_arrival(m, listeners, s);
         }
@@ -484,20 +485,20 @@ impl Ring {
             let arrived = Beside { vehicle: m as u32, offset: self.offset_of(m, j, s) };
             if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
                 if walk.may_be_alongside() {
-                    self.watch[j] = 0;
+                    self.watch[j] = f64::NEG_INFINITY;
                     continue;
                 }
                 break;
             }
             self.beside[j][toward as usize] = arrived;
-            self.watch[j] = 0;
+            self.watch[j] = f64::NEG_INFINITY;
         }
         let Some(mut j) = self.beside(m, side).vehicle() else { return };
         for _ in 0..self.count[self.lane(j)] {
             if self.beside(j, toward).vehicle() != Some(self.ahead(m)) {
                 break;
             }
-            self.watch[j] = 0;
+            self.watch[j] = f64::NEG_INFINITY;
             j = self.ahead(j);
         }
     }
