@@ -82,7 +82,13 @@ impl<S: Sampler> Twin<S> {
         let (n, lanes) = (self.scenario.vehicles, self.scenario.lanes);
         for lane in 0..lanes {
             let share = match self.scenario.start {
-                Start::OneLane(all) => if lane + 1 == all { n } else { 0 },
+                Start::OneLane(all) => {
+                    if lane + 1 == all {
+                        n
+                    } else {
+                        0
+                    }
+                }
                 _ if lane == 0 => n - (lanes - 1) * (n / lanes),
                 _ => n / lanes,
             };
