@@ -23,6 +23,7 @@ use crate::error::Invalid;
 use crate::following::{Following, REFRESH};
 use crate::frustration::{ExponentialClock, Sampler, compared};
 use crate::history::{History, padded};
+use crate::parameters::quoted;
 use crate::random::{Generator, Stream};
 use crate::reaction::Delays;
 use crate::ring::{Pass, Ring, Side};
@@ -483,8 +484,12 @@ impl<S: Sampler> Simulation<S> {
     // ---- Acting ------------------------------------------------------------------------------------------------
 
     /// Does something now: `at` becomes the present time, and the action is added to the scenario, so that a
-    /// replay gives the same bits. A refused action changes nothing.
+    /// replay gives the same bits. A refused action changes nothing; after a collision every action is refused, since
+    /// a replay would make it before.
     pub fn act(&mut self, mut action: Action) -> Result<(), Invalid> {
+        if self.collision.is_some() {
+            return Err(Invalid::new("action", quoted(&action.to_string()), "none after a collision"));
+        }
         action.at = self.time();
         self.scenario.check_action(&action)?;
         let index = self.scenario.actions.len();
