@@ -28,16 +28,24 @@ pub struct Ring {
 impl Ring {
     /// A ring of drivers given by slope (1/s) and delay (s).
     pub fn new(drivers: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let mut sorted: Vec<_> = drivers.into_iter().collect();
-        sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        let mut kinds: Vec<Kind> = Vec::new();
-        for &(slope, delay) in &sorted {
-            match kinds.last_mut() {
-                Some(kind) if (kind.slope, kind.delay) == (slope, delay) => kind.count += 1,
-                _ => kinds.push(Kind { count: 1, slope, delay }),
+        // Runs of alike drivers first, so that a million equal ones need no sorting.
+        let mut runs: Vec<Kind> = Vec::new();
+        for (slope, delay) in drivers {
+            match runs.last_mut() {
+                Some(run) if (run.slope, run.delay) == (slope, delay) => run.count += 1,
+                _ => runs.push(Kind { count: 1, slope, delay }),
             }
         }
-        Self { kinds, vehicles: sorted.len() }
+        runs.sort_unstable_by(|a, b| a.slope.total_cmp(&b.slope).then(a.delay.total_cmp(&b.delay)));
+        let vehicles = runs.iter().map(|run| run.count).sum();
+        runs.dedup_by(|run, kind| {
+            let same = (run.slope, run.delay) == (kind.slope, kind.delay);
+            if same {
+                kind.count += run.count;
+            }
+            same
+        });
+        Self { kinds: runs, vehicles }
     }
 
     /// The drivers of a lane of `length` metres in equilibrium, each with the delay (s) in `delays`.
