@@ -51,7 +51,7 @@ pub struct Report {
     pub critical_reaction_time_s: Option<f64>,
     /// The same for the simulation with its steps, s; 0 where no delay is stable.
     pub critical_reaction_time_discrete_s: Option<f64>,
-    /// 1/(2c), s: Newell's limit of long waves.
+    /// Critical for infinitely long waves, s: Newell's limit, 1/(2c) of equal drivers.
     pub newell_limit_s: Option<f64>,
     /// By what factor all reaction times may grow before the lane is unstable (below 1: must shrink).
     pub critical_scale: Option<f64>,
@@ -325,7 +325,7 @@ impl Report {
             delay_in_force_s: in_steps.mean_delay(),
             critical_reaction_time_s: finite(critical),
             critical_reaction_time_discrete_s: finite(critical_discrete),
-            newell_limit_s: finite(0.5 / slope),
+            newell_limit_s: finite(ring.newell_limit()),
             critical_scale: scale(critical, ring.mean_delay()),
             critical_scale_discrete: scale(critical_discrete, in_steps.mean_delay()),
             max_growth_rate_per_s: rate(continuous.fastest),

@@ -94,6 +94,23 @@ impl Ring {
         }
     }
 
+    /// The mean delay (s) at which infinitely long waves are critical, all delays in proportion (all alike where they are
+    /// 0): from the product equation to second order in s, Σ Δ_j/c_j = Σ 1/(2c_j²). Of equal drivers Newell's
+    /// 1/(2c); infinite in the jam.
+    pub fn newell_limit(&self) -> f64 {
+        if let Some((ring, _)) = self.equal() {
+            return ring.newell_limit();
+        }
+        let mean = self.mean_delay();
+        let (mut squares, mut shares) = (0.0, 0.0);
+        for kind in &self.kinds {
+            let weight = kind.count as f64 / kind.slope;
+            squares += 0.5 * weight / kind.slope;
+            shares += weight * if mean > 0.0 { kind.delay / mean } else { 1.0 };
+        }
+        if self.is_jammed() { f64::INFINITY } else { squares / shares }
+    }
+
     /// The same ring with other delays, each from the old.
     #[must_use]
     pub fn with_delays(&self, delay: impl Fn(f64) -> f64) -> Self {
