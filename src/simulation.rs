@@ -69,6 +69,8 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     drivers: Vec<Driver>,
     ring: Ring,
     history: History,
+    /// The history looks farther back than anyone does any more.
+    history_is_long: bool,
     delays: Delays,
     following: Following,
     /// Perceived headways in the making.
@@ -120,6 +122,7 @@ impl<S: Sampler> Simulation<S> {
             last_step: scenario.last_step(),
             ring: Ring::new(scenario),
             history: History::new(n, delays.longest_target()),
+            history_is_long: false,
             scene: vec![0.0; padded(n)],
             nudged: vec![0.0; n],
             braked: Vec::new(),
@@ -201,7 +204,11 @@ impl<S: Sampler> Simulation<S> {
     }
     /// The next vehicle ahead in an adjacent lane; none in an empty lane or where there is no lane.
     pub fn adjacent(&self, j: usize, side: Side) -> Option<usize> {
-        if self.scenario.lanes > 1 { self.ring.beside(j, side).vehicle() } else { None }
+        self.ring.adjacent(j, side, self.history.now())
+    }
+    /// Displacements since t = 0, nudges after it included, m.
+    pub fn displacements(&self) -> &[f64] {
+        &self.history.now()[..self.vehicles()]
     }
     /// Position without wrapping: that at the start plus all displacements, m.
     pub fn unwrapped_position(&self, j: usize) -> f64 {
@@ -283,6 +290,10 @@ impl<S: Sampler> Simulation<S> {
         self.forward();
         self.step += 1;
         self.delays.advance();
+        if self.history_is_long {
+            self.history.look_back(self.delays.longest_target());
+            self.history_is_long = false;
+        }
         if self.agenda.last().is_some_and(|&(due, _)| due <= self.step) {
             self.apply_due_actions();
         }
@@ -291,9 +302,8 @@ impl<S: Sampler> Simulation<S> {
 
     /// Stage 3: positions.
     fn forward(&mut self) {
-        self.odometer += self.following.spread(self.drivers.len()) * self.scenario.time_step;
         let (old, new) = self.history.advance();
-        self.following.drive(old, self.scenario.time_step, new);
+        self.odometer += self.following.drive(old, self.scenario.time_step, self.drivers.len(), new);
         self.history.close();
     }
 
@@ -308,12 +318,11 @@ impl<S: Sampler> Simulation<S> {
             }
             common => {
                 let leaders = self.ring.leaders();
-                match common {
-                    Some(delay) => see_alike(offset, leaders, self.history.seen(delay), &mut self.scene),
-                    None => {
-                        let delays = self.delays.all();
-                        self.following.see_apart(offset, leaders, delays, &self.history, &mut self.scene);
-                    }
+                if let Some(delay) = common {
+                    see_alike(offset, leaders, self.history.seen(delay), &mut self.scene);
+                } else {
+                    let delays = self.delays.all();
+                    self.following.see_apart(offset, leaders, delays, &self.history, &mut self.scene);
                 }
                 self.following.respond(&self.scene, refresh);
             }
@@ -566,7 +575,11 @@ impl<S: Sampler> Simulation<S> {
     fn know_drivers(&mut self) {
         self.following.find_common_law(&self.drivers);
         self.delays.find_common();
-        self.history.look_back(self.delays.longest_target());
+        // Longer at once, shorter with the next step only: another action of this step may bring back what this one
+        // took away.
+        let longest = self.delays.longest_target();
+        self.history.look_back(longest.max(self.history.looks_back()));
+        self.history_is_long = longest < self.history.looks_back();
         let dt = self.scenario.time_step;
         self.frustration_step.clear();
         self.frustration_step.extend(self.drivers.iter().map(|d| d.frustration_rate * dt));
