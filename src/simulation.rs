@@ -11,8 +11,9 @@
 //! # Choices
 //!
 //! - Where a forward move has carried a vehicle through its leader (headway ≤ 0), the order in the lane is lost
-//!   already: nobody changes lane any more in that step, and stage 2 reports the collision. So vehicles of one lane
-//!   never change order without a reported collision.
+//!   already: stage 1 is left out in that step, and stage 2 reports the collision. So vehicles of one lane never change
+//!   order without a reported collision.
+//! - Two headways are equal when they differ by no more than rounding may: see [`crate::frustration::EQUAL`].
 //! - A tie between two adjacent lanes is broken by a coin that is tossed at an attempt only.
 //! - Nudges move a vehicle past others as driving does: in its own lane that is a collision, in an adjacent one a
 //!   pass.
