@@ -26,6 +26,7 @@
 //! | [`vector`] | vectors as wide as the machine has them |
 //! | [`ring`] | who is ahead, who passed |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
+//! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
 //! | [`table`] | columns, units, CSV |
 //! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 //! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
@@ -34,6 +35,7 @@
 pub mod action;
 pub mod claim;
 pub mod colour;
+pub mod batch;
 pub mod driver;
 pub mod error;
 pub mod exp;
