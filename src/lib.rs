@@ -33,9 +33,9 @@
 //! | [`plot`], [`colour`] | tables to pictures |
 
 pub mod action;
+pub mod batch;
 pub mod claim;
 pub mod colour;
-pub mod batch;
 pub mod driver;
 pub mod error;
 pub mod exp;

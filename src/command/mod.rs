@@ -30,8 +30,6 @@ pub(crate) struct Subcommand {
 }
 
 /// Every subcommand, in the order in which the help shows them.
-const SUBCOMMANDS: [Subcommand; 5] =
-    [run::SUBCOMMAND, presets::SUBCOMMAND, parameters::SUBCOMMAND, replay::SUBCOMMAND, reproduce::SUBCOMMAND];
 const SUBCOMMANDS: &[Subcommand] = &[
     run::SUBCOMMAND,
     batch::SUBCOMMAND,
@@ -39,6 +37,7 @@ const SUBCOMMANDS: &[Subcommand] = &[
     presets::SUBCOMMAND,
     parameters::SUBCOMMAND,
     replay::SUBCOMMAND,
+    reproduce::SUBCOMMAND,
 ];
 
 /// Why there is no result.
