@@ -188,7 +188,10 @@ pub fn main() {
         println!("|---|{}", "---|".repeat(shares.len()));
         for (k, r) in rates.iter().enumerate() {
             let row = &results[k * shares.len()..(k + 1) * shares.len()];
-            println!("| {r} |{}", row.iter().map(|x| format!(" {:.2} |", value(&x.1))).collect::<String>());
+            println!(
+                "| {r} |{}",
+                row.iter().map(|x| format!(" {:.2} |", value(&x.1))).collect::<Vec<_>>().concat()
+            );
         }
         println!();
     }

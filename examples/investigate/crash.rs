@@ -5,6 +5,9 @@ use rayon::prelude::*;
 use ringroad::scenario::Scenario;
 use ringroad::simulation::Simulation;
 
+/// A reading, and its collisions at 0.75 s and at 0.8 s.
+type Collisions = (Reading, (Option<f64>, Option<f64>));
+
 const LITERAL: Reading = Reading {
     displacement: 1.0,
     reaction_time: 0.75,
@@ -72,11 +75,10 @@ pub fn main() {
             }
         }
     }
-    let results: Vec<_> = readings.par_iter().map(|&r| (r, both(r))).collect();
+    let results: Vec<Collisions> = readings.par_iter().map(|&r| (r, both(r))).collect();
     let fits_75 = |t: Option<f64>| t.is_some_and(|t| (t - 217.0).abs() <= 1.0);
     let fits_80 = |t: Option<f64>| t.is_some_and(|t| t <= CYCLE);
-    let count =
-        |f: &dyn Fn(&(Reading, (Option<f64>, Option<f64>))) -> bool| results.iter().filter(|r| f(r)).count();
+    let count = |f: &dyn Fn(&Collisions) -> bool| results.iter().filter(|r| f(r)).count();
     println!(
         "\nReadings tried: {}, all combinations of 72 displacements from −3 to 15 m, −1 to +2 steps, dt of 0.005, 0.01 and 0.05 s, three pasts, three updates.\n",
         results.len()

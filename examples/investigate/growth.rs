@@ -71,7 +71,7 @@ fn depths(rows: &[[f64; N]], vehicle: usize, period: Period) -> Vec<f64> {
             // The disturbance goes backwards: vehicle N is next to vehicle 1.
             let arrival = (N - vehicle) % N * trip / N;
             let first = (arrival + trip / 2) % trip;
-            let starts: Vec<_> = (0..).map(|n| first + n * trip).take_while(|&s| s < rows.len()).collect();
+            let starts: Vec<_> = (first..rows.len()).step_by(trip).collect();
             between(&starts)
         }
     }

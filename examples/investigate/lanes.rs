@@ -260,7 +260,9 @@ impl Lanes {
                 }
             }
         }
-        together.into_iter().for_each(|j| self.change(j));
+        for j in together {
+            self.change(j);
+        }
         self.first = false;
         let headways: Vec<f64> = (0..N).map(|j| self.headway(j)).collect();
         if headways.iter().any(|&h| h <= C) {
@@ -268,8 +270,8 @@ impl Lanes {
             return;
         }
         self.before = self.wrapped;
-        for j in 0..N {
-            let v = V - V * (-(self.sensitivity[j] / V) * (headways[j] - D)).exp();
+        for (j, headway) in headways.iter().enumerate() {
+            let v = V - V * (-(self.sensitivity[j] / V) * (headway - D)).exp();
             self.x[j] += v.max(0.0) * dt;
             self.wrapped[j] = self.x[j].rem_euclid(L);
         }

@@ -24,8 +24,8 @@ pub enum Past {
 pub enum Update {
     /// All speeds first, then all positions.
     Together,
-    /// One vehicle after another, in order of number, each seeing the ones before it moved already where its delay is 0 steps; the
-    /// delayed scene is one step younger for the vehicles moved already.
+    /// One vehicle after another, in order of number: vehicle N sees its leader, vehicle 1, moved already, and so a
+    /// scene one step younger.
     InTurn,
     /// All speeds first, from the scene one step later than asked for.
     OneStepLate,
@@ -69,15 +69,15 @@ pub fn collision(reading: Reading, until: f64) -> Option<f64> {
         h[0] -= displacement;
         h[N - 1] += displacement;
     };
-    if past != Past::Equal {
-        history.iter_mut().for_each(displaced);
-    } else {
+    if past == Past::Equal {
         displaced(&mut history[0]);
+    } else {
+        history.iter_mut().for_each(displaced);
     }
     let steps = (until / dt).round() as usize;
     for step in 0..steps {
         let now = step % rows;
-        if let Some(_touching) = history[now].iter().position(|&h| h <= C) {
+        if history[now].iter().any(|&h| h <= C) {
             return Some(step as f64 * dt);
         }
         let back = if past == Past::NoDelayYet && step < delay { 0 } else { delay + late };
