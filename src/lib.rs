@@ -15,12 +15,16 @@
 //! | [`error`] | what a refusal says |
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
+//! | [`link`] | a scenario as the readable part of a link |
+//! | [`colour`] | colour of speed and frustration, for ring and maps |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
 
 pub mod action;
+pub mod colour;
 pub mod driver;
 pub mod error;
 pub mod exp;
+pub mod link;
 pub mod parameters;
 pub mod random;
 pub mod scenario;
