@@ -18,13 +18,46 @@
 //! | [`link`] | a scenario as the readable part of a link |
 //! | [`colour`] | colour of speed and frustration, for ring and maps |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
+//! | [`preset`] | scenarios with names |
+//! | [`measurement`] | what to measure, plain data |
+//! | [`probe`] | one file a measurement |
+//! | [`fit`] | straight lines and exponentials through points |
+//! | [`simulation`] | the state and its step |
+//! | [`following`] | perceived headways to speeds, all vehicles at once |
+//! | [`history`], [`reaction`] | what was Δ ago, and how long ago that is for whom |
+//! | [`vector`] | vectors as wide as the machine has them |
+//! | [`ring`] | who is ahead, who passed |
+//! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
+//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
+//! | [`table`] | columns, units, CSV |
 
 pub mod action;
 pub mod colour;
 pub mod driver;
 pub mod error;
 pub mod exp;
+pub mod fit;
+pub mod following;
+pub mod frustration;
+pub mod history;
 pub mod link;
+pub mod live;
+pub mod measurement;
 pub mod parameters;
+pub mod preset;
+pub mod probe;
 pub mod random;
+pub mod reaction;
+pub mod ring;
 pub mod scenario;
+pub mod simulation;
+pub mod table;
+pub mod vector;
+pub mod verdict;
+#[cfg(target_arch = "wasm32")]
+pub mod web;
+
+/// The README's example runs with the tests in the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -285,8 +285,7 @@ impl Live {
     fn record_row(&mut self) {
         let s = &self.simulation;
         let (n, length) = (s.vehicles(), s.scenario().length);
-        let crossed: f64 =
-            (0..n).map(|j| (s.unwrapped_position(j) / length - 0.5).floor()).sum();
+        let crossed: f64 = (0..n).map(|j| (s.unwrapped_position(j) / length - 0.5).floor()).sum();
         self.crossings.push_back(crossed);
         let flow = if self.crossings.len() > FLOW_ROWS {
             self.crossings.pop_front().map_or(f64::NAN, |before| (crossed - before) / self.flow_window())
@@ -426,11 +425,12 @@ impl Live {
         let drivers = scenario.drivers();
         let mut rest = drivers.as_slice();
         let mut lanes = Vec::new();
-        let balance = if scenario.vehicles == self.simulation.vehicles() && scenario.lanes == self.balance.len() {
-            self.balance.clone()
-        } else {
-            scenario.vehicles_per_lane()
-        };
+        let balance =
+            if scenario.vehicles == self.simulation.vehicles() && scenario.lanes == self.balance.len() {
+                self.balance.clone()
+            } else {
+                scenario.vehicles_per_lane()
+            };
         for count in balance {
             let (lane, others) = rest.split_at(count);
             lanes.push(lane.to_vec());

@@ -1,1 +1,7 @@
-fn main() {}
+//! The command `ringroad`.
+
+mod command;
+
+fn main() -> std::process::ExitCode {
+    command::main()
+}

@@ -92,6 +92,7 @@ macro_rules! driver {
         Scope::Driver { get: |d| d.$field, set: |d, v| d.$field = v }
     };
 }
+#[allow(clippy::unnecessary_wraps)] // keeps the table readable
 const fn slider(min: f64, max: f64, step: f64) -> Option<Slider> {
     Some(Slider { min, max, step })
 }

@@ -126,14 +126,11 @@ impl Scenario {
 
     /// How many vehicles start in each lane, outermost first.
     pub fn vehicles_per_lane(&self) -> Vec<usize> {
-        match self.start {
-            Start::OneLane(lane) => {
-                (1..=self.lanes).map(|l| if l == lane { self.vehicles } else { 0 }).collect()
-            }
-            _ => {
-                let (each, rest) = (self.vehicles / self.lanes, self.vehicles % self.lanes);
-                (0..self.lanes).map(|l| if l == 0 { each + rest } else { each }).collect()
-            }
+        if let Start::OneLane(lane) = self.start {
+            (1..=self.lanes).map(|l| if l == lane { self.vehicles } else { 0 }).collect()
+        } else {
+            let (each, rest) = (self.vehicles / self.lanes, self.vehicles % self.lanes);
+            (0..self.lanes).map(|l| if l == 0 { each + rest } else { each }).collect()
         }
     }
 

@@ -60,7 +60,12 @@ fn of_lane(drivers: &[Driver], equilibrium: Equilibrium, length: f64, dt: f64) -
     let delay = drivers.iter().map(|d| (d.reaction_time / dt).round()).fold(0.0, f64::max);
     let alike = drivers.iter().all(|d| {
         (d.max_speed, d.sensitivity, d.min_headway, d.reaction_time)
-            == (drivers[0].max_speed, drivers[0].sensitivity, drivers[0].min_headway, drivers[0].reaction_time)
+            == (
+                drivers[0].max_speed,
+                drivers[0].sensitivity,
+                drivers[0].min_headway,
+                drivers[0].reaction_time,
+            )
     });
     let mut verdict = Verdict { alike, reaction_time: delay * dt, equilibrium, ..Verdict::default() };
     let c = drivers[0].slope(length / n as f64);

@@ -32,9 +32,7 @@ pub fn parameters() -> String {
 /// The presets with their texts, as JSON.
 #[wasm_bindgen]
 pub fn presets() -> String {
-    let one = |p: preset::Preset| {
-        json!({ "name": p.name, "title": p.title, "notice": p.notice, "next": p.next, "scenario": p.scenario })
-    };
+    let one = |p: preset::Preset| json!({ "name": p.name, "title": p.title, "notice": p.notice, "next": p.next, "scenario": p.scenario });
     Value::from(preset::presets().into_iter().map(one).collect::<Vec<_>>()).to_string()
 }
 
@@ -61,7 +59,13 @@ impl Lab {
     #[wasm_bindgen(constructor)]
     pub fn new() -> Result<Lab, JsError> {
         let live = Live::new(&opening()).map_err(refusal)?;
-        Ok(Self { live, epoch: 0, map: Painter::default(), ring: Quantity::Difference, ground: Ground::Light })
+        Ok(Self {
+            live,
+            epoch: 0,
+            map: Painter::default(),
+            ring: Quantity::Difference,
+            ground: Ground::Light,
+        })
     }
 
     // ---- What is open ------------------------------------------------------------------------------------------
@@ -100,8 +104,9 @@ impl Lab {
     /// Opens a preset; its end is open.
     pub fn open_preset(&mut self, name: &str) -> Result<String, JsError> {
         let found = preset::presets().into_iter().find(|p| p.name == name);
-        let mut scenario =
-            found.ok_or_else(|| refusal(Invalid::new("preset", quoted(name), "a name of the list")))?.scenario;
+        let mut scenario = found
+            .ok_or_else(|| refusal(Invalid::new("preset", quoted(name), "a name of the list")))?
+            .scenario;
         scenario.until = link::base().until;
         self.open(&scenario)?;
         Ok("[]".into())
@@ -311,7 +316,14 @@ impl Lab {
     /// Chooses what colours stand for: on the ring (`difference`, `speed`, `frustration`) and in the map
     /// (`difference`, `speed`); the lane of the map from 0, and whether it rides along at the equilibrium speed.
     /// Returns both colour bars as JSON.
-    pub fn view(&mut self, ring: &str, map: &str, dark: bool, lane: usize, riding: bool) -> Result<String, JsError> {
+    pub fn view(
+        &mut self,
+        ring: &str,
+        map: &str,
+        dark: bool,
+        lane: usize,
+        riding: bool,
+    ) -> Result<String, JsError> {
         self.ring = quantity(ring)?;
         self.ground = if dark { Ground::Dark } else { Ground::Light };
         let rest = self.live.equilibrium().speed;
@@ -336,7 +348,8 @@ impl Lab {
     pub fn attach(&mut self, canvas: OffscreenCanvas) -> Result<(), JsError> {
         let context = canvas.get_context("2d").ok().flatten();
         let context = context.and_then(|c| c.dyn_into::<OffscreenCanvasRenderingContext2d>().ok());
-        let context = context.ok_or_else(|| JsError::new("this browser cannot draw on an OffscreenCanvas"))?;
+        let context =
+            context.ok_or_else(|| JsError::new("this browser cannot draw on an OffscreenCanvas"))?;
         self.map.canvas = Some((canvas, context));
         self.map.painted = None;
         Ok(())
@@ -349,7 +362,9 @@ impl Lab {
 
     /// What the map shows in a column (from its left edge) and a cell (from x = 0 up), as JSON, or `null`.
     pub fn probe(&self, column: usize, bin: usize) -> String {
-        let Some(shown) = self.live.columns().get(column).filter(|_| bin < BINS) else { return "null".into() };
+        let Some(shown) = self.live.columns().get(column).filter(|_| bin < BINS) else {
+            return "null".into();
+        };
         let settings = &self.map.settings;
         let cell = (bin + settings.offset(shown, self.live.simulation().scenario().length)) % BINS;
         let speed = shown.speeds.get(settings.lane * BINS + cell).copied().unwrap_or(f32::NAN);
@@ -436,7 +451,8 @@ impl Painter {
         }
         // What is there moves to the left by as many columns as have left the window.
         let before = kept - new;
-        let leaving = self.painted.map_or(0, |painted| (painted.min(COLUMNS as u64) as usize).saturating_sub(before));
+        let leaving =
+            self.painted.map_or(0, |painted| (painted.min(COLUMNS as u64) as usize).saturating_sub(before));
         if leaving > 0 {
             context.draw_image_with_offscreen_canvas(canvas, -(leaving as f64), 0.0)?;
         }

@@ -1,0 +1,69 @@
+//! `ringroad replay`: simulates again what a CSV file says of its making, and compares every byte.
+
+use super::options::read;
+use super::output::Output;
+use super::run::tabulate;
+use super::{Failure, Subcommand};
+use clap::{Arg, ArgMatches, Command};
+use ringroad::table::{Provenance, VERSION};
+use std::process::ExitCode;
+
+/// `ringroad replay`.
+pub(crate) const SUBCOMMAND: Subcommand = Subcommand { define, run };
+
+fn define() -> Command {
+    Command::new("replay")
+        .about("Simulate a CSV file of Ringroad again and say whether every byte agrees")
+        .after_help("Exit status: 0 if every byte agrees, 1 if not, 2 if the file cannot be read.")
+        .arg(
+            Arg::new("file")
+                .value_name("FILE.csv")
+                .required(true)
+                .help("The file; - reads the standard input"),
+        )
+}
+
+fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
+    let file = matches.get_one::<String>("file").expect("required");
+    let text = read(file)?;
+    let version = Provenance::version_of(&text).map_err(|e| e.within(file))?;
+    if version != VERSION {
+        let message = format!(
+            "{file}: written by Ringroad {version}, and this is {VERSION}. A run repeats to the last bit within one \
+             version only; nothing is wrong with the file as far as can be told here.\n"
+        );
+        Output::Standard.write(&message)?;
+        return Ok(ExitCode::FAILURE);
+    }
+    let Provenance { scenario, measurement, .. } = Provenance::from_csv(&text).map_err(|e| e.within(file))?;
+    let again = tabulate(&scenario, &measurement)?.to_csv(&scenario, &measurement);
+    if again == text {
+        Output::Standard.write(&format!("{file}: every byte agrees.\n"))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    Output::Standard.write(&format!("{file}: {}\n", first_difference(&text, &again)))?;
+    Ok(ExitCode::FAILURE)
+}
+
+fn first_difference(given: &str, again: &str) -> String {
+    let mut given = given.split_inclusive('\n');
+    let mut again = again.split_inclusive('\n');
+    for line in 1.. {
+        let shown = |text: Option<&str>| match text {
+            Some(text) => format!("“{}”", text.trim_end_matches('\n').chars().take(200).collect::<String>()),
+            None => "the end of the file".to_owned(),
+        };
+        let (a, b) = (given.next(), again.next());
+        if a != b {
+            return format!(
+                "differs from line {line} on: {} in the file, {} in the simulation.",
+                shown(a),
+                shown(b)
+            );
+        }
+        if a.is_none() {
+            break;
+        }
+    }
+    "differs.".to_owned()
+}

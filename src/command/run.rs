@@ -1,0 +1,121 @@
+//! `ringroad run`: one scenario, one measurement, as CSV; or a summary as JSON.
+
+use super::options::{scenario, scenario_options};
+use super::output::{self, Output};
+use super::summary::{Watched, summary};
+use super::{Failure, Subcommand, progress};
+use clap::{Arg, ArgAction, ArgMatches, Command};
+use ringroad::error::Invalid;
+use ringroad::measurement::{Measurement, SETTINGS};
+use ringroad::probe::measure;
+use ringroad::scenario::Scenario;
+use ringroad::simulation::Simulation;
+use ringroad::table::Table;
+use std::process::ExitCode;
+
+/// `ringroad run`.
+pub(crate) const SUBCOMMAND: Subcommand = Subcommand { define, run };
+
+/// More memory than the rows of a run may take, bytes.
+const MEMORY: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
+
+fn define() -> Command {
+    let command = Command::new("run")
+        .about("Run a scenario and write a table of what was measured as CSV")
+        .after_help("Exit status: 0 for a result, a collision included; 2 for bad usage.")
+        .arg(output::option())
+        .arg(
+            Arg::new("json")
+                .long("json")
+                .action(ArgAction::SetTrue)
+                .conflicts_with("table")
+                .help("Write a summary of the run as JSON instead of a table"),
+        );
+    measurement_options(scenario_options(command))
+}
+
+/// `--table` and the settings of the measurements.
+fn measurement_options(command: Command) -> Command {
+    let names: Vec<_> = Measurement::all().iter().map(Measurement::name).collect();
+    let mut command = command.next_help_heading("Measurement").arg(
+        Arg::new("table")
+            .long("table")
+            .value_name("NAME")
+            .default_value("trajectories")
+            .help(format!("What to measure: {}", names.join(", "))),
+    );
+    for (k, setting) in SETTINGS.iter().enumerate() {
+        if SETTINGS[..k].iter().any(|s| s.option == setting.option) {
+            continue;
+        }
+        let tables: Vec<_> = Measurement::all()
+            .iter()
+            .filter(|m| m.settings().iter().any(|s| s.option == setting.option))
+            .map(Measurement::name)
+            .collect();
+        let unit = if setting.unit.is_empty() { String::new() } else { format!(" ({})", setting.unit) };
+        command = command.arg(
+            Arg::new(setting.option)
+                .long(setting.option)
+                .value_name("VALUE")
+                .action(ArgAction::Append)
+                .allow_negative_numbers(true)
+                .help(format!("{}{unit}; for {}", setting.meaning, tables.join(", "))),
+        );
+    }
+    command.next_help_heading(None::<&str>)
+}
+
+fn measurement(matches: &ArgMatches) -> Result<Measurement, Failure> {
+    let name = matches.get_one::<String>("table").expect("has a default");
+    let mut given = Vec::new();
+    for (k, setting) in SETTINGS.iter().enumerate() {
+        let first = !SETTINGS[..k].iter().any(|s| s.option == setting.option);
+        if first && let Some(values) = matches.get_many::<String>(setting.option) {
+            given.push((setting.option, values.map(String::as_str).collect::<Vec<_>>().join(",")));
+        }
+    }
+    let given = given.iter().map(|(option, text)| (*option, text.as_str()));
+    Ok(Measurement::named(name)?.with_options(given)?)
+}
+
+/// Runs the scenario to its end and gives the table, with a progress bar on a terminal.
+pub(crate) fn tabulate(scenario: &Scenario, measurement: &Measurement) -> Result<Table, Failure> {
+    if measurement.bytes(scenario) > MEMORY {
+        let (gib, most) =
+            (measurement.bytes(scenario) / MEMORY * 8.0, MEMORY / 8.0 / 1024.0 / 1024.0 / 1024.0 * 8.0);
+        let allowed =
+            format!("at most {most} GiB: measure less often with --every, or fewer vehicles or bins");
+        return Err(Invalid::new("rows of the table", format!("{gib:.0} GiB"), allowed).into());
+    }
+    let mut probes = [measurement.probe(scenario)?];
+    let mut simulation = Simulation::new(scenario)?;
+    let bar = progress::bar(scenario.last_step());
+    measure(&mut simulation, &mut probes, &mut |step| {
+        bar.set_position(step);
+        true
+    });
+    bar.finish_and_clear();
+    Ok(probes[0].table())
+}
+
+fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
+    let scenario = scenario(matches)?;
+    let output = Output::new(matches)?;
+    if matches.get_flag("json") {
+        let mut simulation = Simulation::new(&scenario)?;
+        let watched = Watched::new(&simulation);
+        let bar = progress::bar(scenario.last_step());
+        measure(&mut simulation, &mut [], &mut |step| {
+            bar.set_position(step);
+            true
+        });
+        bar.finish_and_clear();
+        output.write(&summary(&simulation, &watched))?;
+    } else {
+        let measurement = measurement(matches)?;
+        let table = tabulate(&scenario, &measurement)?;
+        output.write(&table.to_csv(&scenario, &measurement))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

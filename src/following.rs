@@ -1,0 +1,283 @@
+//! Car following, all vehicles at once: perceived headways to speeds.
+//!
+//! # The gap factor
+//!
+//! v = max(V − V·y, 0) with the *gap factor* y = exp(−(λ/V)(h − d)). From one step to the next h moves by a little,
+//! so y moves by a factor e^a with a small a = −(λ/V)·δh: |a| ≤ λ·dt for equal drivers. Where |a| ≤ 2⁻⁶ the factor is
+//! multiplied by the Taylor polynomial of degree 6, whose remainder a⁷/7! is below 5·10⁻¹⁷ relative; where a is
+//! larger (a nudge, a lane change, a large λ·dt) that vehicle's factor is evaluated in full. The choice is made
+//! vehicle by vehicle, so that it does not depend on the width of the vectors.
+//!
+//! **Accuracy.** One multiplication by the polynomial rounds like y·(1 + ε) with |ε| under 5·10⁻¹⁶, the
+//! rounding of a itself included; every [`REFRESH`] steps all factors are evaluated in full. So y stays within
+//! 64·5·10⁻¹⁶ ≈ 3·10⁻¹⁴ of exp, for ever, over the whole range of the parameters, and v within V·y times that.
+//! Arguments of the full evaluation are held to ±700: y then means "stand still" (e^700) or "as fast as possible"
+//! (e^−700) and stays so through [`REFRESH`] steps of at most 2⁻⁶ each.
+
+use crate::driver::Driver;
+use crate::exp::exp_within;
+use crate::vector::{CHUNK, Width, kernel};
+
+/// Steps between full evaluations of all factors.
+pub const REFRESH: u64 = 64;
+
+/// Largest |a| that the polynomial serves.
+const SMALL: f64 = 1.0 / 64.0;
+
+/// V, −λ/V and d of a vehicle's driver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Law {
+    max_speed: f64,
+    rate: f64,
+    min_headway: f64,
+}
+
+impl Law {
+    fn of(driver: &Driver) -> Self {
+        Self {
+            max_speed: driver.max_speed,
+            rate: -(driver.sensitivity / driver.max_speed),
+            min_headway: driver.min_headway,
+        }
+    }
+}
+
+/// Perceived headways, gap factors and speeds of all vehicles; padded to whole chunks.
+#[derive(Clone, Debug)]
+pub struct Following {
+    width: Width,
+    state: State,
+    laws: Laws,
+    /// The one law of all vehicles, if there is one: its constants then need not be read vehicle by vehicle.
+    common: Option<Law>,
+}
+
+#[derive(Clone, Debug)]
+struct State {
+    perceived: Vec<f64>,
+    factor: Vec<f64>,
+    speed: Vec<f64>,
+}
+
+#[derive(Clone, Debug)]
+struct Laws {
+    max_speed: Vec<f64>,
+    rate: Vec<f64>,
+    min_headway: Vec<f64>,
+}
+
+/// A new factor from the old one: by the polynomial, which is wrong where `a` is not small.
+#[inline(always)]
+fn moved(factor: f64, a: f64) -> f64 {
+    // Taylor's polynomial, Estrin's scheme: short chains, so that a vector unit stays busy.
+    let a2 = a * a;
+    let low = 1.0 + a;
+    let middle = (1.0 / 2.0) + a * (1.0 / 6.0);
+    let high = ((1.0 / 24.0) + a * (1.0 / 120.0)) + a2 * (1.0 / 720.0);
+    factor * ((low + middle * a2) + high * (a2 * a2))
+}
+
+#[inline(always)]
+fn is_small(a: f64) -> bool {
+    // False for NaN: a vehicle without a valid factor.
+    a.abs() <= SMALL
+}
+
+/// A chunk of a padded slice.
+#[inline(always)]
+fn chunk(slice: &[f64], start: usize) -> &[f64; CHUNK] {
+    (&slice[start..start + CHUNK]).try_into().expect("slices are padded to whole chunks")
+}
+
+#[inline(always)]
+fn chunk_mut(slice: &mut [f64], start: usize) -> &mut [f64; CHUNK] {
+    (&mut slice[start..start + CHUNK]).try_into().expect("slices are padded to whole chunks")
+}
+
+/// New factors, speeds and perceived headways of one chunk of vehicles.
+#[inline(always)]
+fn respond_chunk(
+    scene: &[f64; CHUNK],
+    law: impl Fn(usize) -> Law,
+    refresh: bool,
+    state: &mut State,
+    start: usize,
+) {
+    let perceived = chunk_mut(&mut state.perceived, start);
+    let factor = chunk_mut(&mut state.factor, start);
+    let speed = chunk_mut(&mut state.speed, start);
+    let mut next = [0.0; CHUNK];
+    let mut not_small = 0_u64;
+    for j in 0..CHUNK {
+        let a = law(j).rate * (scene[j] - perceived[j]);
+        next[j] = moved(factor[j], a);
+        not_small |= u64::from(!is_small(a));
+    }
+    if refresh || not_small != 0 {
+        for j in 0..CHUNK {
+            let law = law(j);
+            let a = law.rate * (scene[j] - perceived[j]);
+            let full = exp_within(law.rate * (scene[j] - law.min_headway));
+            next[j] = if refresh || !is_small(a) { full } else { next[j] };
+        }
+    }
+    for j in 0..CHUNK {
+        let max_speed = law(j).max_speed;
+        let v = max_speed - max_speed * next[j];
+        speed[j] = if v > 0.0 { v } else { 0.0 };
+    }
+    *factor = next;
+    *perceived = *scene;
+}
+
+kernel! {
+    /// One law for all; the leader of j is j + 1: what everyone sees is `offset[j] + (seen[j+1] − seen[j])`.
+    fn respond_in_order(offset: &[f64], seen: &[f64], law: Law, refresh: bool, state: &mut State) {
+        for start in (0..offset.len()).step_by(CHUNK) {
+            let (offset, leader) = (chunk(offset, start), chunk(&seen[1..], start));
+            let own = chunk(seen, start);
+            let mut scene = [0.0; CHUNK];
+            for j in 0..CHUNK {
+                scene[j] = offset[j] + (leader[j] - own[j]);
+            }
+            respond_chunk(&scene, |_| law, refresh, state, start);
+        }
+    }
+}
+
+kernel! {
+    /// One law for all, scenes as given.
+    fn respond_alike(scene: &[f64], law: Law, refresh: bool, state: &mut State) {
+        for start in (0..scene.len()).step_by(CHUNK) {
+            respond_chunk(chunk(scene, start), |_| law, refresh, state, start);
+        }
+    }
+}
+
+kernel! {
+    /// Everyone has a law of their own.
+    fn respond_apart(scene: &[f64], laws: &Laws, refresh: bool, state: &mut State) {
+        for start in (0..scene.len()).step_by(CHUNK) {
+            let (max_speed, rate) = (chunk(&laws.max_speed, start), chunk(&laws.rate, start));
+            let min_headway = chunk(&laws.min_headway, start);
+            let law = |j: usize| Law { max_speed: max_speed[j], rate: rate[j], min_headway: min_headway[j] };
+            respond_chunk(chunk(scene, start), law, refresh, state, start);
+        }
+    }
+}
+
+kernel! {
+    /// Positions: x += v·dt.
+    fn drive(old: &[f64], speed: &[f64], dt: f64, new: &mut [f64]) {
+        for start in (0..speed.len()).step_by(CHUNK) {
+            let (old, speed) = (chunk(old, start), chunk(speed, start));
+            let new = chunk_mut(new, start);
+            for j in 0..CHUNK {
+                new[j] = old[j] + speed[j] * dt;
+            }
+        }
+    }
+}
+
+impl Following {
+    /// For these drivers, in arrays padded to `padded` numbers; no factor is valid yet.
+    pub fn new(drivers: &[Driver], padded: usize) -> Self {
+        let filled = |value| vec![value; padded];
+        let mut following = Self {
+            width: Width::widest(),
+            state: State { perceived: filled(f64::NAN), factor: filled(1.0), speed: filled(0.0) },
+            laws: Laws { max_speed: filled(1.0), rate: filled(-1.0), min_headway: filled(1.0) },
+            common: None,
+        };
+        for (j, driver) in drivers.iter().enumerate() {
+            following.set_driver(j, driver);
+        }
+        following.find_common_law(drivers);
+        following
+    }
+
+    /// Uses vectors of another width; results stay the same.
+    pub fn set_width(&mut self, width: Width) {
+        self.width = width;
+    }
+
+    /// Takes over the law of a driver that has changed; the vehicle's factor is no longer valid.
+    pub fn set_driver(&mut self, j: usize, driver: &Driver) {
+        let law = Law::of(driver);
+        self.laws.max_speed[j] = law.max_speed;
+        self.laws.rate[j] = law.rate;
+        self.laws.min_headway[j] = law.min_headway;
+        self.invalidate(j);
+    }
+
+    /// To be called after [`Self::set_driver`], once for all that changed.
+    pub fn find_common_law(&mut self, drivers: &[Driver]) {
+        let first = Law::of(&drivers[0]);
+        self.common = drivers.iter().all(|d| Law::of(d) == first).then_some(first);
+    }
+
+    /// Has the vehicle's factor evaluated in full next time.
+    pub fn invalidate(&mut self, j: usize) {
+        self.state.perceived[j] = f64::NAN;
+    }
+
+    /// Perceived headways, m (padded).
+    #[inline]
+    pub fn perceived(&self) -> &[f64] {
+        &self.state.perceived
+    }
+
+    /// Speeds, m/s (padded).
+    #[inline]
+    pub fn speeds(&self) -> &[f64] {
+        &self.state.speed
+    }
+
+    /// Overrules the law: a braked vehicle.
+    pub fn set_speed(&mut self, j: usize, speed: f64) {
+        self.state.speed[j] = speed;
+    }
+
+    /// New displacements after a step of `dt` seconds.
+    pub fn drive(&self, old: &[f64], dt: f64, new: &mut [f64]) {
+        drive(self.width, old, &self.state.speed, dt, new);
+    }
+
+    /// New speeds where the leader of j is j + 1, and the displacements that all see are in one row `seen`, in which
+    /// the first vehicle's stands again behind the last one's. All factors in full where `refresh` says so.
+    ///
+    /// Where drivers have laws of their own, `scene` holds what they see in the meantime.
+    pub fn respond_in_order(&mut self, offset: &[f64], seen: &[f64], scene: &mut [f64], refresh: bool) {
+        if let Some(law) = self.common {
+            respond_in_order(self.width, offset, seen, law, refresh, &mut self.state);
+        } else {
+            for ((scene, offset), pair) in scene.iter_mut().zip(offset).zip(seen.windows(2)) {
+                *scene = offset + (pair[1] - pair[0]);
+            }
+            self.respond(scene, refresh);
+        }
+    }
+
+    /// New speeds for the perceived headways `scene` (m, padded); all factors in full where `refresh` says so.
+    pub fn respond(&mut self, scene: &[f64], refresh: bool) {
+        match self.common {
+            Some(law) => respond_alike(self.width, scene, law, refresh, &mut self.state),
+            None => respond_apart(self.width, scene, &self.laws, refresh, &mut self.state),
+        }
+    }
+
+    /// The same for one vehicle whose scene has changed within a step.
+    pub fn respond_one(&mut self, j: usize, scene: f64) {
+        let (max_speed, rate) = (self.laws.max_speed[j], self.laws.rate[j]);
+        let a = rate * (scene - self.state.perceived[j]);
+        let factor = if is_small(a) {
+            moved(self.state.factor[j], a)
+        } else {
+            exp_within(rate * (scene - self.laws.min_headway[j]))
+        };
+        let v = max_speed - max_speed * factor;
+        self.state.speed[j] = if v > 0.0 { v } else { 0.0 };
+        self.state.factor[j] = factor;
+        self.state.perceived[j] = scene;
+    }
+}

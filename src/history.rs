@@ -1,0 +1,156 @@
+//! What was Δ ago: the displacements of all vehicles, one row a step, for as many steps as the longest reaction
+//! time in use looks back.
+//!
+//! A displacement is the distance driven since t = 0 plus the nudges since then. Rows lie in a ring buffer, vehicles
+//! side by side in a row, so that one step reads and writes memory in order.
+
+use crate::vector::CHUNK;
+
+/// Displacements (m) by step and vehicle.
+#[derive(Clone, Debug)]
+pub struct History {
+    data: Vec<f64>,
+    vehicles: usize,
+    /// Numbers in a row, padding included.
+    width: usize,
+    /// Rows kept.
+    rows: usize,
+    /// The row of the present step.
+    head: usize,
+}
+
+impl History {
+    /// All displacements 0, with room to look back `steps` steps.
+    pub fn new(vehicles: usize, steps: usize) -> Self {
+        // One more than the vehicles, and one more than a whole number of chunks: see `close`.
+        let width = padded(vehicles) + CHUNK;
+        let rows = rows_for(steps);
+        Self { data: vec![0.0; width * rows], vehicles, width, rows, head: 0 }
+    }
+
+    /// The row of `delay` steps ago.
+    #[inline]
+    pub fn seen(&self, delay: usize) -> &[f64] {
+        let start = self.row_start(delay);
+        &self.data[start..start + self.width]
+    }
+
+    /// The displacement of one vehicle `delay` steps ago.
+    #[inline]
+    pub fn at(&self, delay: usize, vehicle: usize) -> f64 {
+        self.data[self.row_start(delay) + vehicle]
+    }
+
+    /// The present row.
+    #[inline]
+    pub fn now(&self) -> &[f64] {
+        self.seen(0)
+    }
+
+    /// Displaces a vehicle by so many metres, now.
+    pub fn displace(&mut self, vehicle: usize, metres: f64) {
+        let start = self.row_start(0);
+        self.data[start + vehicle] += metres;
+        self.close();
+    }
+
+    /// Repeats the first vehicle's displacement behind the last one's, so that a row reads as closed: on one lane the
+    /// leader of every vehicle is then the next number. To be called when the present row has been written.
+    #[inline]
+    pub fn close(&mut self) {
+        let start = self.row_start(0);
+        self.data[start + self.vehicles] = self.data[start];
+    }
+
+    /// Makes the next row the present one: gives (the row that was present, the one to be written).
+    #[inline]
+    pub fn advance(&mut self) -> (&[f64], &mut [f64]) {
+        let old = self.head;
+        self.head = if old + 1 == self.rows { 0 } else { old + 1 };
+        let w = self.width;
+        if self.head > old {
+            let (left, right) = self.data.split_at_mut(self.head * w);
+            (&left[old * w..], &mut right[..w])
+        } else {
+            let (left, right) = self.data.split_at_mut(old * w);
+            (&right[..w], &mut left[..w])
+        }
+    }
+
+    /// Changes how far back it can look. Rows that were not kept before are not to be asked for: the delay in
+    /// force grows by at most one step per step.
+    pub fn look_back(&mut self, steps: usize) {
+        let rows = rows_for(steps);
+        if rows == self.rows {
+            return;
+        }
+        let mut data = vec![0.0; self.width * rows];
+        let kept = rows.min(self.rows);
+        for delay in 0..kept {
+            let target = (kept - 1 - delay) * self.width;
+            data[target..target + self.width].copy_from_slice(self.seen(delay));
+        }
+        (self.data, self.rows, self.head) = (data, rows, kept - 1);
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.data.capacity() * size_of::<f64>()
+    }
+
+    #[inline]
+    fn row_start(&self, delay: usize) -> usize {
+        debug_assert!(delay < self.rows, "delay {delay} of {} rows", self.rows);
+        let row = if delay <= self.head { self.head - delay } else { self.head + self.rows - delay };
+        row * self.width
+    }
+}
+
+/// Vehicles padded to whole chunks.
+pub(crate) fn padded(vehicles: usize) -> usize {
+    vehicles.next_multiple_of(CHUNK)
+}
+
+/// The present row and the one before are always there: passes are told by both.
+fn rows_for(steps: usize) -> usize {
+    steps.max(1) + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Row i holds the value i throughout.
+    fn advanced(history: &mut History, value: f64) {
+        history.advance().1.fill(value);
+    }
+
+    #[test]
+    fn it_looks_back_as_far_as_asked_through_changes_of_length() {
+        let mut history = History::new(3, 4);
+        let mut step = 0.0;
+        for look_back in [4, 2, 7, 7, 1, 5] {
+            history.look_back(look_back);
+            for _ in 0..11 {
+                step += 1.0;
+                advanced(&mut history, step);
+            }
+            for delay in 0..=look_back {
+                assert_eq!(history.at(delay, 2), step - delay as f64);
+            }
+        }
+        // Growing keeps what was known.
+        history.look_back(9);
+        for delay in 0..=5 {
+            assert_eq!(history.at(delay, 0), step - delay as f64);
+        }
+    }
+
+    #[test]
+    fn it_holds_the_rows_in_use_and_no_more() {
+        assert_eq!(History::new(16, 75).bytes(), (16 + 8) * 8 * 76);
+        let mut history = History::new(16, 75);
+        history.look_back(10);
+        assert_eq!(history.bytes(), (16 + 8) * 8 * 11);
+    }
+}

@@ -1,0 +1,553 @@
+//! A measurement: what to read off a run, how often and with which settings. Plain data that travels beside the
+//! scenario and validates itself.
+//!
+//! In JSON it is one flat object: `table` names the measurement, the rest are its settings. What is left out has
+//! its default; `null` stands for a default that follows from the scenario, such as the middle of the ring.
+
+use crate::error::Invalid;
+use crate::parameters::quoted;
+use crate::probe::{
+    Probe,
+    cyclic_growth::CyclicGrowth,
+    drivers::Drivers,
+    drivers::Vehicles,
+    equilibrium::Equilibria,
+    events::Events,
+    flow::Flow,
+    growth::{Growth, Linear},
+    lanes::Lanes,
+    modes::Modes,
+    speed_map::SpeedMap,
+    speeds::Speeds,
+    trajectories::Trajectories,
+};
+use crate::scenario::Scenario;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// What is measured. Times are in seconds and round to whole steps; vehicles and lanes are numbered from 1.
+///
+/// Read it with [`Measurement::from_json`], which fills in defaults and names what is wrong.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "table", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Measurement {
+    /// Every vehicle's state, a row for each vehicle and time.
+    Trajectories {
+        /// Time between rows, s.
+        every: f64,
+    },
+    /// Speeds of some vehicles, one column each.
+    Speeds {
+        /// Time between rows, s.
+        every: f64,
+        /// Whose; by default 1, 11, 21, 31 and 41, as far as they exist.
+        vehicles: Option<Vec<usize>>,
+    },
+    /// Space-time map of speed in one lane.
+    SpeedMap {
+        /// Time between rows of the map, s.
+        every: f64,
+        /// Number of cells round the ring.
+        bins: usize,
+        /// Which lane.
+        lane: usize,
+    },
+    /// Space-time map of flow, all lanes together.
+    FlowMap {
+        /// Time between rows of the map, s.
+        every: f64,
+        /// Number of places round the ring.
+        bins: usize,
+        /// δ, s.
+        window: f64,
+    },
+    /// Flow past one place, all lanes together.
+    Flow {
+        /// Time between rows, s.
+        every: f64,
+        /// δ, s.
+        window: f64,
+        /// The place, m; by default the middle, L/2.
+        at: Option<f64>,
+    },
+    /// Amplitudes of the Fourier modes of the headways' deviations from equilibrium.
+    Modes {
+        /// Time between rows, s.
+        every: f64,
+        /// Modes 1 to this; by default 10, or N/2 where that is less.
+        modes: Option<usize>,
+        /// Which lane.
+        lane: usize,
+    },
+    /// Growth rate of each mode in the linear regime.
+    Growth {
+        /// Time between the amplitudes that are fitted, s.
+        every: f64,
+        /// Modes 1 to this; by default 10, or N/2 where that is less.
+        modes: Option<usize>,
+        /// Which lane.
+        lane: usize,
+        /// Start of the fit, s; by default 20 reaction times, when what the start excited beside the
+        /// leading root has died away.
+        from: Option<f64>,
+        /// Amplitude under which a mode is lost in rounding, m.
+        smallest: f64,
+        /// Share of what is not linear in a mode's motion above which the regime is no longer linear.
+        nonlinearity: f64,
+    },
+    /// The cyclic growth rate of one vehicle's speed.
+    CyclicGrowth {
+        /// Whose speed.
+        vehicle: usize,
+        /// Number of periods fitted.
+        periods: usize,
+    },
+    /// Equilibrium of each lane: a row at the start and whenever it has changed.
+    Equilibrium {
+        /// Time between looks, s.
+        every: f64,
+    },
+    /// Lane changes, refused attempts, passes and the collision.
+    Events {},
+    /// Vehicles in each lane and their imbalance.
+    Lanes {
+        /// Time between rows, s.
+        every: f64,
+    },
+    /// Lane changes, distance and speed for each group of like drivers.
+    Drivers {
+        /// Time between rows, s.
+        every: f64,
+    },
+    /// Lane changes, distance and mean speed of each vehicle.
+    Vehicles {
+        /// Time between rows, s.
+        every: f64,
+    },
+}
+
+/// One setting of measurements: what the command's options and the checks are made from.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Setting {
+    /// Name in JSON.
+    pub name: &'static str,
+    /// Name of the command's option.
+    pub option: &'static str,
+    /// Unit; empty for a pure number.
+    pub unit: &'static str,
+    /// Smallest allowed value.
+    pub min: f64,
+    /// Largest allowed value.
+    pub max: f64,
+    /// Whether only whole numbers are allowed.
+    pub whole: bool,
+    /// Whether it is a list of numbers.
+    pub list: bool,
+    /// What it means, in one line.
+    pub meaning: &'static str,
+}
+
+/// Every setting of any measurement.
+#[rustfmt::skip]
+pub static SETTINGS: [Setting; 12] = [
+    Setting { name: "every", option: "every", unit: "s", min: 1e-3, max: 1e7, whole: false, list: false, meaning: "time between rows" },
+    Setting { name: "vehicle", option: "vehicle", unit: "", min: 1.0, max: 1e6, whole: true, list: false, meaning: "whose speed is followed" },
+    Setting { name: "vehicles", option: "vehicle", unit: "", min: 1.0, max: 1e6, whole: true, list: true, meaning: "whose speeds" },
+    Setting { name: "bins", option: "bins", unit: "", min: 1.0, max: 1e5, whole: true, list: false, meaning: "cells of a map round the ring" },
+    Setting { name: "lane", option: "lane", unit: "", min: 1.0, max: 8.0, whole: true, list: false, meaning: "which lane" },
+    Setting { name: "window", option: "window", unit: "s", min: 1e-3, max: 1e7, whole: false, list: false, meaning: "window δ over which vehicles are counted" },
+    Setting { name: "at", option: "at", unit: "m", min: 0.0, max: 1e8, whole: false, list: false, meaning: "place where vehicles are counted" },
+    Setting { name: "modes", option: "modes", unit: "", min: 1.0, max: 1e4, whole: true, list: false, meaning: "Fourier modes from 1 to this" },
+    Setting { name: "from", option: "from", unit: "s", min: 0.0, max: 1e7, whole: false, list: false, meaning: "start of the fit" },
+    Setting { name: "smallest", option: "smallest", unit: "m", min: 1e-12, max: 1e3, whole: false, list: false, meaning: "amplitude under which a mode is lost in rounding" },
+    Setting { name: "nonlinearity", option: "nonlinearity", unit: "", min: 1e-12, max: 1e3, whole: false, list: false, meaning: "share of what is not linear in a mode's motion above which it is left out" },
+    Setting { name: "periods", option: "periods", unit: "", min: 2.0, max: 1e6, whole: true, list: false, meaning: "number of periods fitted" },
+];
+
+impl Setting {
+    /// What is allowed, in words.
+    pub fn allowed(&self) -> String {
+        let kind = match (self.list, self.whole) {
+            (true, _) => "whole numbers",
+            (false, true) => "a whole number",
+            (false, false) => "a number",
+        };
+        let space = if self.unit.is_empty() { "" } else { " " };
+        format!("{kind} from {} to {}{space}{}", self.min, self.max, self.unit)
+    }
+
+    fn refuse(&self, value: impl std::fmt::Display) -> Invalid {
+        Invalid::new(self.name, value, self.allowed())
+    }
+
+    fn check(&self, value: &Value) -> Result<(), Invalid> {
+        let one = |value: &Value| {
+            let inside = |x: f64| x >= self.min && x <= self.max && (!self.whole || x == x.trunc());
+            if value.as_f64().is_some_and(inside) { Ok(()) } else { Err(self.refuse(value)) }
+        };
+        match value {
+            Value::Array(items) if self.list && !items.is_empty() => items.iter().try_for_each(one),
+            _ if self.list => Err(self.refuse(value)),
+            _ => one(value),
+        }
+    }
+
+    /// Reads what a person wrote; a list has commas between its numbers.
+    fn parse(&self, text: &str) -> Result<Value, Invalid> {
+        let one = |text: &str| {
+            let number: f64 = text.trim().parse().map_err(|_| self.refuse(quoted(text)))?;
+            if number.is_finite() { Ok(number_value(number)) } else { Err(self.refuse(number)) }
+        };
+        let value = if self.list {
+            Value::Array(text.split(',').map(one).collect::<Result<_, _>>()?)
+        } else {
+            one(text)?
+        };
+        self.check(&value).map(|()| value)
+    }
+}
+
+/// A JSON number, whole ones without ".0".
+fn number_value(x: f64) -> Value {
+    if x == x.trunc() && x.abs() < 9.1e15 { Value::from(x as i64) } else { Value::from(x) }
+}
+
+impl Measurement {
+    /// Every measurement with its default settings, in the order in which people read them.
+    pub fn all() -> [Self; 13] {
+        let every = 1.0;
+        [
+            Self::Trajectories { every },
+            Self::Speeds { every, vehicles: None },
+            Self::SpeedMap { every, bins: 100, lane: 1 },
+            Self::FlowMap { every, bins: 100, window: 18.63 },
+            Self::Flow { every, window: 5.0, at: None },
+            Self::Modes { every, modes: None, lane: 1 },
+            Self::Growth { every: 0.5, modes: None, lane: 1, from: None, smallest: 1e-9, nonlinearity: 0.01 },
+            Self::CyclicGrowth { vehicle: 1, periods: 5 },
+            Self::Equilibrium { every },
+            Self::Events {},
+            Self::Lanes { every },
+            Self::Drivers { every },
+            Self::Vehicles { every },
+        ]
+    }
+
+    /// The measurement of that name with its default settings.
+    pub fn named(name: &str) -> Result<Self, Invalid> {
+        let mut all = Self::all();
+        let Some(found) = all.iter_mut().find(|m| m.name() == name) else {
+            let names: Vec<_> = all.iter().map(Self::name).collect();
+            return Err(Invalid::new("table", quoted(name), names.join(", ")));
+        };
+        Ok(found.clone())
+    }
+
+    /// The name of the measurement and of its table.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Trajectories { .. } => "trajectories",
+            Self::Speeds { .. } => "speeds",
+            Self::SpeedMap { .. } => "speed-map",
+            Self::FlowMap { .. } => "flow-map",
+            Self::Flow { .. } => "flow",
+            Self::Modes { .. } => "modes",
+            Self::Growth { .. } => "growth",
+            Self::CyclicGrowth { .. } => "cyclic-growth",
+            Self::Equilibrium { .. } => "equilibrium",
+            Self::Events {} => "events",
+            Self::Lanes { .. } => "lanes",
+            Self::Drivers { .. } => "drivers",
+            Self::Vehicles { .. } => "vehicles",
+        }
+    }
+
+    /// The settings that this measurement has.
+    pub fn settings(&self) -> Vec<&'static Setting> {
+        let map = self.to_map();
+        SETTINGS.iter().filter(|s| map.contains_key(s.name)).collect()
+    }
+
+    /// The measurement with settings changed as a person wrote them, by the names of the command's options.
+    pub fn with_options<'a>(
+        self,
+        options: impl IntoIterator<Item = (&'a str, &'a str)>,
+    ) -> Result<Self, Invalid> {
+        let mut map = self.to_map();
+        let settings = self.settings();
+        for (option, text) in options {
+            let setting = settings.iter().find(|s| s.option == option).ok_or_else(|| {
+                let names: Vec<_> = settings.iter().map(|s| format!("--{}", s.option)).collect();
+                let names = if names.is_empty() { "no setting".to_owned() } else { names.join(", ") };
+                Invalid::new(
+                    format!("--{option}"),
+                    quoted(text),
+                    format!("for the table {}: {names}", self.name()),
+                )
+            })?;
+            map.insert(setting.name.into(), setting.parse(text)?);
+        }
+        Self::from_map(&map)
+    }
+
+    fn to_map(&self) -> Map<String, Value> {
+        let Ok(Value::Object(mut map)) = serde_json::to_value(self) else { unreachable!("a flat enum") };
+        for value in map.values_mut() {
+            if let Some(number) = value.as_f64() {
+                *value = number_value(number);
+            }
+        }
+        map
+    }
+
+    fn from_map(given: &Map<String, Value>) -> Result<Self, Invalid> {
+        let table = match given.get("table") {
+            Some(Value::String(name)) => Self::named(name)?,
+            other => {
+                let value = other.map_or_else(|| "nothing".to_owned(), Value::to_string);
+                return Err(Invalid::new("table", value, "the name of a table, a text"));
+            }
+        };
+        let mut map = table.to_map();
+        for (name, value) in given.iter().filter(|(name, _)| *name != "table") {
+            let Some(default) = map.get(name) else {
+                let names: Vec<_> = map.keys().map(String::as_str).collect();
+                return Err(Invalid::new("field", quoted(name), names.join(", ")).within(table.name()));
+            };
+            let follows = default.is_null() && value.is_null();
+            if !follows && let Some(setting) = SETTINGS.iter().find(|s| s.name == name) {
+                setting.check(value).map_err(|e| e.within(table.name()))?;
+            }
+            // Whole numbers may come as 2.0.
+            let whole = |v: &Value| v.as_f64().map_or_else(|| v.clone(), number_value);
+            let value = match value {
+                Value::Array(items) => items.iter().map(whole).collect(),
+                one => whole(one),
+            };
+            map.insert(name.clone(), value);
+        }
+        serde_json::from_value(Value::Object(map))
+            .map_err(|e| Invalid::new("measurement", e, "settings of the right kind"))
+    }
+
+    /// One line of JSON with every field.
+    pub fn to_json(&self) -> String {
+        Value::Object(self.to_map()).to_string()
+    }
+
+    /// Reads JSON; what depends on a scenario is for [`Measurement::validate`].
+    pub fn from_json(text: &str) -> Result<Self, Invalid> {
+        let value: Value = serde_json::from_str(text).map_err(|e| {
+            Invalid::new("measurement", format!("JSON that breaks off ({e})"), "a JSON object")
+        })?;
+        match value {
+            Value::Object(map) => Self::from_map(&map),
+            other => Err(Invalid::new("measurement", other, "a JSON object")),
+        }
+    }
+
+    /// The measurement with every default that follows from the scenario written out.
+    #[must_use]
+    pub fn resolved(&self, scenario: &Scenario) -> Self {
+        let mut resolved = self.clone();
+        let most_modes = (scenario.vehicles / 2).clamp(1, 10);
+        match &mut resolved {
+            Self::Speeds { vehicles, .. } => {
+                vehicles.get_or_insert_with(|| {
+                    (1..=41).step_by(10).filter(|&n| n <= scenario.vehicles).collect()
+                });
+            }
+            Self::Flow { at, .. } => {
+                at.get_or_insert(0.5 * scenario.length);
+            }
+            Self::Modes { modes, .. } => {
+                modes.get_or_insert(most_modes);
+            }
+            Self::Growth { modes, from, .. } => {
+                modes.get_or_insert(most_modes);
+                from.get_or_insert_with(|| {
+                    let longest = scenario.drivers().iter().map(|d| d.reaction_time).fold(0.0, f64::max);
+                    scenario.steps(20.0 * longest) as f64 * scenario.time_step
+                });
+            }
+            _ => {}
+        }
+        resolved
+    }
+
+    /// Whether it makes sense for runs of the scenario.
+    pub fn validate(&self, scenario: &Scenario) -> Result<(), Invalid> {
+        let resolved = self.resolved(scenario);
+        // Also catches what no JSON can hold: NaN and infinities become null.
+        Self::from_map(&resolved.to_map())?;
+        for (name, value) in resolved.to_map() {
+            let number = value.as_f64().unwrap_or(0.0);
+            let refuse = |allowed: String| Err(Invalid::new(&name, &value, allowed).within(self.name()));
+            let most = |limit: usize, what: &str| {
+                if number > limit as f64 { refuse(format!("at most {limit}, {what}")) } else { Ok(()) }
+            };
+            match name.as_str() {
+                "every" | "window" if scenario.steps(number) == 0 => {
+                    refuse(format!("at least one step, {} s", scenario.time_step))
+                }
+                "vehicle" => most(scenario.vehicles, "the number of vehicles"),
+                "vehicles" => {
+                    let numbers = value.as_array().into_iter().flatten();
+                    match numbers.filter_map(Value::as_u64).find(|&n| n > scenario.vehicles as u64) {
+                        Some(n) => Err(Invalid::new(
+                            &name,
+                            n,
+                            format!("at most {}, the number of vehicles", scenario.vehicles),
+                        )
+                        .within(self.name())),
+                        None => Ok(()),
+                    }
+                }
+                "lane" => most(scenario.lanes, "the number of lanes"),
+                "modes" => most((scenario.vehicles / 2).max(1), "half the number of vehicles"),
+                "at" if number >= scenario.length => {
+                    refuse(format!("less than {} m, the length of the ring", scenario.length))
+                }
+                _ => Ok(()),
+            }?;
+        }
+        Ok(())
+    }
+
+    /// The probe that makes it, for runs of the scenario.
+    pub fn probe(&self, scenario: &Scenario) -> Result<Box<dyn Probe>, Invalid> {
+        self.validate(scenario)?;
+        let steps = |seconds: f64| scenario.steps(seconds);
+        Ok(match self.resolved(scenario) {
+            Self::Trajectories { every } => Box::new(Trajectories::new(steps(every))),
+            Self::Speeds { every, vehicles } => {
+                Box::new(Speeds::new(steps(every), &vehicles.unwrap_or_default()))
+            }
+            Self::SpeedMap { every, bins, lane } => {
+                Box::new(SpeedMap::new(steps(every), bins, lane - 1, scenario.length))
+            }
+            Self::FlowMap { every, bins, window } => {
+                Box::new(Flow::map(scenario, steps(every), steps(window), bins))
+            }
+            Self::Flow { every, window, at } => {
+                Box::new(Flow::at(scenario, steps(every), steps(window), at.unwrap_or_default()))
+            }
+            Self::Modes { every, modes, lane } => {
+                Box::new(Modes::new(steps(every), modes.unwrap_or_default(), lane - 1))
+            }
+            Self::Growth { every, modes, lane, from, smallest, nonlinearity } => Box::new(Growth::new(
+                steps(every),
+                modes.unwrap_or_default(),
+                lane - 1,
+                steps(from.unwrap_or_default()),
+                Linear { smallest, nonlinearity },
+            )),
+            Self::CyclicGrowth { vehicle, periods } => Box::new(CyclicGrowth::new(vehicle - 1, periods)),
+            Self::Equilibrium { every } => Box::new(Equilibria::new(steps(every))),
+            Self::Events {} => Box::new(Events::default()),
+            Self::Lanes { every } => Box::new(Lanes::new(steps(every))),
+            Self::Drivers { every } => Box::new(Drivers::new(steps(every))),
+            Self::Vehicles { every } => Box::new(Vehicles::new(steps(every))),
+        })
+    }
+
+    /// Memory that the rows of a whole run take, bytes, roughly: for a warning before a run that cannot end well.
+    pub fn bytes(&self, scenario: &Scenario) -> f64 {
+        let (every, numbers) = match self.resolved(scenario) {
+            Self::Trajectories { every } => (every, 8 * scenario.vehicles),
+            Self::Speeds { every, vehicles } => (every, 1 + vehicles.map_or(0, |v| v.len())),
+            Self::SpeedMap { every, bins, .. } | Self::FlowMap { every, bins, .. } => (every, bins),
+            Self::Modes { every, modes, .. } | Self::Growth { every, modes, .. } => {
+                (every, 2 + modes.unwrap_or(0))
+            }
+            Self::Vehicles { every } => (every, 4 * scenario.vehicles),
+            Self::Flow { every, .. } => (every, 2),
+            Self::Lanes { every } | Self::Equilibrium { every } | Self::Drivers { every } => {
+                (every, 8 * scenario.lanes)
+            }
+            Self::CyclicGrowth { .. } | Self::Events {} => (scenario.until.max(1.0), 1),
+        };
+        8.0 * numbers as f64 * (scenario.until / every)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_reads_back_every_table_and_holds_every_field() {
+        let scenario = Scenario::default();
+        for measurement in Measurement::all() {
+            assert_eq!(Measurement::from_json(&measurement.to_json()).unwrap(), measurement);
+            assert_eq!(Measurement::named(measurement.name()).unwrap(), measurement);
+            let resolved = measurement.resolved(&scenario);
+            assert!(!resolved.to_json().contains("null"), "{}", resolved.to_json());
+            assert_eq!(Measurement::from_json(&resolved.to_json()).unwrap(), resolved);
+            assert!(measurement.validate(&scenario).is_ok());
+            assert_eq!(measurement.to_json().lines().count(), 1);
+            assert_eq!(serde_json::to_value(&measurement).unwrap()["table"], measurement.name());
+        }
+        let speeds = Measurement::from_json(r#"{"table":"speeds"}"#).unwrap().resolved(&scenario);
+        assert_eq!(speeds.to_json(), r#"{"every":1,"table":"speeds","vehicles":[1,11,21,31,41]}"#);
+        let few = Scenario { vehicles: 15, ..scenario };
+        assert!(Measurement::named("speeds").unwrap().resolved(&few).to_json().contains("[1,11]"));
+    }
+
+    #[test]
+    fn options_are_read_by_their_names() {
+        let map =
+            Measurement::named("flow-map").unwrap().with_options([("window", "5"), ("bins", "20")]).unwrap();
+        assert_eq!(map, Measurement::FlowMap { every: 1.0, bins: 20, window: 5.0 });
+        let speeds = Measurement::named("speeds").unwrap().with_options([("vehicle", "3, 7")]).unwrap();
+        assert_eq!(speeds, Measurement::Speeds { every: 1.0, vehicles: Some(vec![3, 7]) });
+    }
+
+    #[test]
+    fn every_refusal_names_field_value_and_what_is_allowed() {
+        let scenario = Scenario::default();
+        for (json, words) in [
+            ("{", &["measurement", "JSON"][..]),
+            ("[]", &["measurement", "[]", "JSON object"]),
+            ("{}", &["table", "nothing", "name of a table"]),
+            (r#"{"table":7}"#, &["table", "7"]),
+            (r#"{"table":"speed"}"#, &["table", "“speed”", "trajectories", "speed-map"]),
+            (r#"{"table":"events","every":1}"#, &["events", "“every”"]),
+            (r#"{"table":"speeds","vehicle":1}"#, &["speeds", "“vehicle”", "vehicles"]),
+            (r#"{"table":"lanes","every":0}"#, &["lanes: every", "0 is", "from 0.001"]),
+            (r#"{"table":"lanes","every":"1"}"#, &["lanes: every", "\"1\"", "a number"]),
+            (r#"{"table":"lanes","every":null}"#, &["lanes: every", "null", "a number"]),
+            (r#"{"table":"lanes","every":0.004}"#, &["lanes: every", "0.004", "one step, 0.01 s"]),
+            (r#"{"table":"speeds","vehicles":[]}"#, &["speeds: vehicles", "[]", "whole numbers"]),
+            (r#"{"table":"speeds","vehicles":[1.5]}"#, &["speeds: vehicles", "1.5", "whole"]),
+            (r#"{"table":"speeds","vehicles":[1,51]}"#, &["speeds: vehicles", "51", "at most 50"]),
+            (r#"{"table":"speed-map","lane":2}"#, &["speed-map: lane", "2", "at most 1"]),
+            (r#"{"table":"speed-map","bins":0}"#, &["speed-map: bins", "0", "from 1"]),
+            (r#"{"table":"flow","at":1000}"#, &["flow: at", "1000", "less than 1000 m"]),
+            (r#"{"table":"flow","window":-1}"#, &["flow: window", "-1"]),
+            (r#"{"table":"modes","modes":26}"#, &["modes: modes", "26", "at most 25"]),
+            (r#"{"table":"growth","from":-1}"#, &["growth: from", "-1"]),
+            (r#"{"table":"growth","nonlinearity":0}"#, &["growth: nonlinearity", "0", "from 0.000000000001"]),
+            (r#"{"table":"cyclic-growth","vehicle":99}"#, &["cyclic-growth: vehicle", "99", "at most 50"]),
+            (r#"{"table":"cyclic-growth","periods":1}"#, &["cyclic-growth: periods", "1", "from 2"]),
+        ] {
+            let message =
+                Measurement::from_json(json).and_then(|m| m.validate(&scenario)).expect_err(json).to_string();
+            for word in words {
+                assert!(message.contains(word), "{json}: {message} lacks {word}");
+            }
+        }
+        for every in [f64::NAN, f64::INFINITY] {
+            assert!(Measurement::Lanes { every }.validate(&scenario).is_err());
+        }
+        for (options, words) in [
+            (("window", "1"), ["--window", "lanes", "--every"]),
+            (("every", "soon"), ["every", "“soon”", "a number"]),
+            (("every", "NaN"), ["every", "NaN", "a number"]),
+        ] {
+            let message =
+                Measurement::named("lanes").unwrap().with_options([options]).unwrap_err().to_string();
+            assert!(words.iter().all(|w| message.contains(w)), "{message}");
+        }
+    }
+}

@@ -1,0 +1,563 @@
+//! A simulation: the only state. Built from a scenario, it steps; it can be read and cloned; its randomness comes
+//! from the scenario's seed alone.
+//!
+//! # One step, in the paper's order
+//!
+//! 1. Lane changing, vehicle by vehicle in order of number, each change taking effect at once.
+//! 2. Collision, from true headways. The first ends the run; the state stays readable.
+//! 3. Forward: all positions at once, x += v·dt. Then the actions due at the new time are applied and all speeds are
+//!    found from the headways perceived there: between two steps everything can be read as it is at time t = i·dt.
+//!
+//! # Choices
+//!
+//! - Where a forward move has carried a vehicle through its leader (headway ≤ 0), the order in the lane is lost
+//!   already: nobody changes lane any more in that step, and stage 2 reports the collision. So vehicles of one lane
+//!   never change order without a reported collision.
+//! - A tie between two adjacent lanes is broken by a coin that is tossed at an attempt only.
+//! - Nudges move a vehicle past others as driving does: in its own lane that is a collision, in an adjacent one a
+//!   pass.
+
+use crate::action::{Action, Effect};
+use crate::driver::Driver;
+use crate::error::Invalid;
+use crate::following::{Following, REFRESH};
+use crate::frustration::{ExponentialClock, Sampler, compared};
+use crate::history::{History, padded};
+use crate::random::{Generator, Stream};
+use crate::reaction::Delays;
+use crate::ring::{Pass, Ring, Side};
+use crate::scenario::{Scenario, assign, check_min_headway};
+use crate::vector::Width;
+
+/// Two vehicles have touched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Collision {
+    /// Time, s.
+    pub time: f64,
+    /// Index of the vehicle behind.
+    pub behind: usize,
+    /// Index of the vehicle ahead.
+    pub ahead: usize,
+    /// Lane, from 0.
+    pub lane: usize,
+}
+
+/// Something that happened in the last step. Vehicles are indices, lanes count from 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)] // the fields are the words of the sentence above them
+pub enum Event {
+    /// A vehicle has gone to an adjacent lane; its frustration before.
+    LaneChange { vehicle: usize, from: usize, to: usize, frustration: f64 },
+    /// An attempt failed: the target lane was occupied within the minimum headway.
+    Refused { vehicle: usize, from: usize, to: usize, frustration: f64 },
+    /// A vehicle in an adjacent lane has passed another.
+    Pass { passer: usize, passed: usize },
+    /// Two vehicles have touched; the run is over.
+    Collision { behind: usize, ahead: usize, lane: usize },
+}
+
+/// The state of a run.
+#[derive(Clone, Debug)]
+pub struct Simulation<S: Sampler = ExponentialClock> {
+    scenario: Scenario,
+    step: u64,
+    last_step: u64,
+    drivers: Vec<Driver>,
+    ring: Ring,
+    history: History,
+    delays: Delays,
+    following: Following,
+    /// Perceived headways in the making.
+    scene: Vec<f64>,
+    /// Sum of the nudges since the start, m.
+    nudged: Vec<f64>,
+    /// Braked vehicles and the step in which they are released.
+    braked: Vec<(usize, u64)>,
+    frustration: Vec<f64>,
+    /// r·dt of every driver.
+    frustration_step: Vec<f64>,
+    lane_changes: Vec<u32>,
+    sampler: S,
+    passes: Vec<Pass>,
+    late_passes: Vec<Pass>,
+    events: Vec<Event>,
+    events_step: u64,
+    collision: Option<Collision>,
+    /// Actions still to come, the next one last: (step, place in the list).
+    agenda: Vec<(u64, usize)>,
+    /// No two vehicles can touch before this step.
+    clear_until: u64,
+    /// The largest V of any driver, m/s.
+    top_speed: f64,
+}
+
+impl Simulation {
+    /// The state of a scenario at t = 0, after the actions due then.
+    pub fn new(scenario: &Scenario) -> Result<Self, Invalid> {
+        Self::with_sampler(scenario)
+    }
+}
+
+impl<S: Sampler> Simulation<S> {
+    /// The same with a sampler of one's choice.
+    pub fn with_sampler(scenario: &Scenario) -> Result<Self, Invalid> {
+        scenario.validate()?;
+        let n = scenario.vehicles;
+        let drivers = scenario.drivers();
+        let target = drivers.iter().map(|d| scenario.steps(d.reaction_time) as u32).collect();
+        let delays = Delays::new(target);
+        let following = Following::new(&drivers, padded(n));
+        let mut agenda = scenario.actions_in_time();
+        agenda.reverse();
+        let events = if scenario.lanes > 1 { 64 + n.min(4096) } else { 1 };
+        let mut simulation = Self {
+            step: 0,
+            last_step: scenario.last_step(),
+            ring: Ring::new(scenario),
+            history: History::new(n, delays.longest_target()),
+            scene: vec![0.0; padded(n)],
+            nudged: vec![0.0; n],
+            braked: Vec::new(),
+            frustration: vec![0.0; n],
+            frustration_step: Vec::with_capacity(n),
+            lane_changes: vec![0; n],
+            sampler: S::new(n, scenario.time_step, Generator::new(scenario.seed, Stream::LaneChanging)),
+            passes: Vec::with_capacity(events),
+            late_passes: Vec::with_capacity(16),
+            events: Vec::with_capacity(events),
+            events_step: 0,
+            collision: None,
+            agenda,
+            clear_until: 0,
+            top_speed: 0.0,
+            drivers,
+            delays,
+            following,
+            scenario: scenario.clone(),
+        };
+        simulation.know_drivers();
+        simulation.apply_due_actions();
+        if scenario.lanes > 1 {
+            simulation.ring.find_beside(simulation.history.now());
+        }
+        simulation.look(true);
+        Ok(simulation)
+    }
+
+    // ---- Reading -----------------------------------------------------------------------------------------------
+
+    /// The scenario, with the actions made live: run again, it gives this state to the last bit.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+    /// Steps taken, i.
+    pub fn step_index(&self) -> u64 {
+        self.step
+    }
+    /// t = i·dt, s.
+    pub fn time(&self) -> f64 {
+        self.step as f64 * self.scenario.time_step
+    }
+    /// Whether further steps do nothing: a collision, or the end of the scenario.
+    pub fn is_finished(&self) -> bool {
+        self.collision.is_some() || self.step >= self.last_step
+    }
+    /// The collision that ended the run.
+    pub fn collision(&self) -> Option<Collision> {
+        self.collision
+    }
+    /// What happened in the last step taken, in order.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+    /// Time of the [`Self::events`]: that at which the last step started, s.
+    pub fn events_time(&self) -> f64 {
+        self.events_step as f64 * self.scenario.time_step
+    }
+    /// Number of vehicles.
+    pub fn vehicles(&self) -> usize {
+        self.drivers.len()
+    }
+    /// The lane of a vehicle, from 0.
+    pub fn lane(&self, j: usize) -> usize {
+        self.ring.lane(j)
+    }
+    /// Vehicles in each lane, outermost first.
+    pub fn vehicles_per_lane(&self) -> &[usize] {
+        self.ring.vehicles_per_lane()
+    }
+    /// The next vehicle ahead in the lane; itself when alone.
+    pub fn leader(&self, j: usize) -> usize {
+        self.ring.ahead(j)
+    }
+    /// The next vehicle behind in the lane; itself when alone.
+    pub fn follower(&self, j: usize) -> usize {
+        self.ring.behind(j)
+    }
+    /// The next vehicle ahead in an adjacent lane; none in an empty lane or where there is no lane.
+    pub fn adjacent(&self, j: usize, side: Side) -> Option<usize> {
+        if self.scenario.lanes > 1 { self.ring.beside(j, side).vehicle() } else { None }
+    }
+    /// Position without wrapping: that at the start plus all displacements, m.
+    pub fn unwrapped_position(&self, j: usize) -> f64 {
+        self.ring.start(j) + self.history.now()[j]
+    }
+    /// Position in [0, L), m.
+    pub fn position(&self, j: usize) -> f64 {
+        let x = self.unwrapped_position(j).rem_euclid(self.scenario.length);
+        // Rounding may reach L itself.
+        if x < self.scenario.length { x } else { 0.0 }
+    }
+    /// Speed, m/s.
+    pub fn speed(&self, j: usize) -> f64 {
+        self.following.speeds()[j]
+    }
+    /// All speeds, m/s.
+    pub fn speeds(&self) -> &[f64] {
+        &self.following.speeds()[..self.vehicles()]
+    }
+    /// True headway, m.
+    pub fn headway(&self, j: usize) -> f64 {
+        self.ring.headway(j, self.history.now())
+    }
+    /// The headway as the driver sees it now, m.
+    pub fn perceived_headway(&self, j: usize) -> f64 {
+        self.following.perceived()[j]
+    }
+    /// φ.
+    pub fn frustration(&self, j: usize) -> f64 {
+        self.frustration[j]
+    }
+    /// Distance driven since t = 0, nudges excluded, m.
+    pub fn distance(&self, j: usize) -> f64 {
+        self.history.now()[j] - self.nudged[j]
+    }
+    /// Lane changes since t = 0.
+    pub fn lane_changes(&self, j: usize) -> u32 {
+        self.lane_changes[j]
+    }
+    /// The driver as he or she is now.
+    pub fn driver(&self, j: usize) -> &Driver {
+        &self.drivers[j]
+    }
+    /// Delay in force, steps.
+    pub fn delay_steps(&self, j: usize) -> usize {
+        self.delays.of(j)
+    }
+    /// Bytes of the history of positions.
+    pub fn history_bytes(&self) -> usize {
+        self.history.bytes()
+    }
+
+    // ---- Stepping ----------------------------------------------------------------------------------------------
+
+    /// Steps until that step, or the end.
+    pub fn run_to(&mut self, step: u64) {
+        while self.step < step && !self.is_finished() {
+            self.step();
+        }
+    }
+
+    /// One step; does nothing once finished.
+    pub fn step(&mut self) {
+        if self.is_finished() {
+            return;
+        }
+        self.events.clear();
+        self.events_step = self.step;
+        if self.scenario.lanes > 1 && !self.order_is_lost() {
+            self.change_lanes();
+        }
+        if self.step >= self.clear_until {
+            self.detect_collision();
+            if self.collision.is_some() {
+                return;
+            }
+        }
+        self.forward();
+        self.step += 1;
+        self.delays.advance();
+        if self.agenda.last().is_some_and(|&(due, _)| due <= self.step) {
+            self.apply_due_actions();
+        }
+        self.look(self.step.is_multiple_of(REFRESH));
+    }
+
+    /// Stage 3: positions.
+    fn forward(&mut self) {
+        let (old, new) = self.history.advance();
+        self.following.drive(old, self.scenario.time_step, new);
+        self.history.close();
+    }
+
+    /// What everyone sees now, and the speeds that follow: the vehicle in front now, both where they were the
+    /// driver's delay ago.
+    fn look(&mut self, refresh: bool) {
+        let offset = self.ring.offsets();
+        match self.delays.common() {
+            Some(delay) if self.ring.is_in_order() => {
+                let seen = self.history.seen(delay);
+                self.following.respond_in_order(offset, seen, &mut self.scene, refresh);
+            }
+            common => {
+                let leaders = self.ring.leaders();
+                match common {
+                    Some(delay) => see_alike(offset, leaders, self.history.seen(delay), &mut self.scene),
+                    None => see_apart(offset, leaders, &self.history, &self.delays, &mut self.scene),
+                }
+                self.following.respond(&self.scene, refresh);
+            }
+        }
+        if !self.braked.is_empty() {
+            let step = self.step;
+            self.braked.retain(|&(_, released)| released > step);
+            for &(j, _) in &self.braked {
+                self.following.set_speed(j, 0.0);
+            }
+        }
+    }
+
+    /// Stage 1.
+    fn change_lanes(&mut self) {
+        self.passes.clear();
+        self.late_passes.clear();
+        let reach = self.top_speed * self.scenario.time_step;
+        self.ring.follow_motion(self.step, reach, self.history.now(), &mut self.passes);
+        let mut next_pass = 0;
+        for j in 0..self.drivers.len() {
+            let [outer, inner] = self.seen_beside(j);
+            let own = self.following.perceived()[j];
+            let best = if outer > inner { outer } else { inner };
+            let mut frustration = compared(self.frustration[j], own, best, self.frustration_step[j]);
+            while let Some(&pass) = self.passes.get(next_pass).filter(|p| p.passed as usize == j) {
+                next_pass += 1;
+                frustration += self.count_pass(pass);
+            }
+            for k in 0..self.late_passes.len() {
+                if self.late_passes[k].passed as usize == j {
+                    frustration += self.count_pass(self.late_passes[k]);
+                }
+            }
+            self.frustration[j] = frustration;
+            if self.sampler.attempts(j, frustration) {
+                self.attempt(j, outer, inner);
+            }
+        }
+    }
+
+    /// Rule 3: a pass counts where the passer is in an adjacent lane now.
+    #[cold]
+    fn count_pass(&mut self, pass: Pass) -> f64 {
+        let (passer, passed) = (pass.passer as usize, pass.passed as usize);
+        if self.ring.lane(passer).abs_diff(self.ring.lane(passed)) != 1 {
+            return 0.0;
+        }
+        self.events.push(Event::Pass { passer, passed });
+        self.drivers[passed].pass_frustration
+    }
+
+    /// Perceived headways in the adjacent lanes: +∞ in an empty one, −∞ where there is no lane.
+    #[inline(always)]
+    fn seen_beside(&self, j: usize) -> [f64; 2] {
+        let seen = match self.delays.common() {
+            Some(delay) => self.history.seen(delay),
+            None => self.history.seen(self.delays.of(j)),
+        };
+        let [outer, inner] = self.ring.all_beside()[j];
+        [outer.distance(j, seen), inner.distance(j, seen)]
+    }
+
+    /// An attempt, aimed at the better adjacent lane.
+    #[cold]
+    fn attempt(&mut self, j: usize, outer: f64, inner: f64) {
+        let side =
+            if outer > inner || (outer == inner && self.sampler.coin()) { Side::Outer } else { Side::Inner };
+        let from = self.ring.lane(j);
+        let to = self.ring.lane_beside(j, side).expect("the better lane exists");
+        let frustration = self.frustration[j];
+        let s = self.history.now();
+        let gap = self.drivers[j].min_headway;
+        let beside = self.ring.beside(j, side);
+        if let Some(ahead) = beside.vehicle() {
+            let behind = self.ring.behind(ahead);
+            let free = beside.distance(j, s) > gap && self.ring.distance_behind(behind, j, s) > gap;
+            if !free {
+                self.events.push(Event::Refused { vehicle: j, from, to, frustration });
+                return;
+            }
+        }
+        let follower = self.ring.behind(j);
+        self.ring.change_lane(j, side, self.history.seen(1), s, &mut self.late_passes);
+        self.events.push(Event::LaneChange { vehicle: j, from, to, frustration });
+        self.frustration[j] = 0.0;
+        self.lane_changes[j] += 1;
+        for vehicle in [follower, self.ring.behind(j), j] {
+            self.look_again(vehicle);
+            let steps = self.steps_until_contact(self.clearance(vehicle));
+            self.clear_until = self.clear_until.min(self.step + steps);
+        }
+    }
+
+    /// One vehicle has another leader within this step.
+    fn look_again(&mut self, j: usize) {
+        let seen = self.history.seen(self.delays.of(j));
+        let scene = self.ring.offsets()[j] + (seen[self.ring.ahead(j)] - seen[j]);
+        self.following.respond_one(j, scene);
+        if self.braked.iter().any(|&(braked, _)| braked == j) {
+            self.following.set_speed(j, 0.0);
+        }
+    }
+
+    /// Distance between a vehicle and its leader, bumper to bumper, m: 0 or less where they touch.
+    fn clearance(&self, j: usize) -> f64 {
+        let contact =
+            0.5 * (self.drivers[j].vehicle_length + self.drivers[self.ring.ahead(j)].vehicle_length);
+        self.headway(j) - contact
+    }
+
+    /// How many steps two vehicles of that clearance (m) cannot touch: it shrinks by at most V·dt a step. The
+    /// factor leaves room for rounding.
+    fn steps_until_contact(&self, clearance: f64) -> u64 {
+        (0.999 * clearance / (self.top_speed * self.scenario.time_step)) as u64
+    }
+
+    /// Whether a vehicle has gone through its leader.
+    fn order_is_lost(&self) -> bool {
+        self.step >= self.clear_until && (0..self.drivers.len()).any(|j| self.headway(j) <= 0.0)
+    }
+
+    /// Stage 2. Where nobody touches, the closest pair tells for how long nobody can.
+    fn detect_collision(&mut self) {
+        let mut closest = f64::INFINITY;
+        for j in 0..self.drivers.len() {
+            let clearance = self.clearance(j);
+            closest = closest.min(clearance);
+            if clearance <= 0.0 {
+                let (ahead, lane) = (self.ring.ahead(j), self.ring.lane(j));
+                self.collision = Some(Collision { time: self.time(), behind: j, ahead, lane });
+                self.events.push(Event::Collision { behind: j, ahead, lane });
+                return;
+            }
+        }
+        self.clear_until = self.step + self.steps_until_contact(closest).max(1);
+    }
+
+    // ---- Acting ------------------------------------------------------------------------------------------------
+
+    /// Does something now: `at` becomes the present time, and the action is added to the scenario, so that a
+    /// replay gives the same bits. A refused action changes nothing.
+    pub fn act(&mut self, mut action: Action) -> Result<(), Invalid> {
+        action.at = self.time();
+        self.scenario.check_action(&action)?;
+        let index = self.scenario.actions.len();
+        let members = self.scenario.members(action.who, Stream::Action(index));
+        let mut longest = 0.0_f64;
+        for &j in &members {
+            let mut driver = self.drivers[j];
+            for effect in &action.effects {
+                if let Effect::Set(parameter, value) = *effect {
+                    assign(&mut driver, parameter, value);
+                }
+            }
+            check_min_headway(&driver)?;
+            longest = longest.max(driver.reaction_time);
+        }
+        self.scenario.check_history(longest)?;
+        self.scenario.actions.push(action);
+        self.apply(index);
+        if self.step == 0 && self.scenario.lanes > 1 {
+            self.ring.find_beside(self.history.now());
+        }
+        self.look(false);
+        Ok(())
+    }
+
+    /// Computes with vectors of another width; results stay the same to the last bit.
+    pub fn set_width(&mut self, width: Width) {
+        self.following.set_width(width);
+    }
+
+    /// Moves the end of the run, s.
+    pub fn set_until(&mut self, until: f64) -> Result<(), Invalid> {
+        let parameter = crate::parameters::Parameter::named("until").expect("a parameter of the table");
+        parameter.set(&mut self.scenario, until)?;
+        self.last_step = self.scenario.last_step();
+        Ok(())
+    }
+
+    fn apply_due_actions(&mut self) {
+        while let Some(&(due, index)) = self.agenda.last() {
+            if due > self.step {
+                return;
+            }
+            self.agenda.pop();
+            self.apply(index);
+        }
+    }
+
+    fn apply(&mut self, index: usize) {
+        let Action { who, effects, .. } = self.scenario.actions[index].clone();
+        let mut any_set = false;
+        for j in self.scenario.members(who, Stream::Action(index)) {
+            for &effect in &effects {
+                match effect {
+                    Effect::Set(parameter, value) => {
+                        any_set = true;
+                        assign(&mut self.drivers[j], parameter, value);
+                        self.following.set_driver(j, &self.drivers[j]);
+                        let target = self.scenario.steps(self.drivers[j].reaction_time) as u32;
+                        self.delays.set_target(j, target);
+                    }
+                    Effect::Brake(seconds) => {
+                        self.braked.push((j, self.step + self.scenario.steps(seconds)));
+                    }
+                    Effect::Nudge(metres) => self.nudge(j, metres),
+                }
+            }
+        }
+        if any_set {
+            self.know_drivers();
+        }
+    }
+
+    fn nudge(&mut self, j: usize, metres: f64) {
+        if self.step == 0 {
+            self.ring.nudge_start(j, metres);
+        } else {
+            self.history.displace(j, metres);
+            self.nudged[j] += metres;
+        }
+        self.following.invalidate(j);
+        self.following.invalidate(self.ring.behind(j));
+        self.clear_until = self.step;
+        self.ring.watch_all();
+    }
+
+    /// What is known of all drivers together.
+    fn know_drivers(&mut self) {
+        self.following.find_common_law(&self.drivers);
+        self.delays.find_common();
+        self.history.look_back(self.delays.longest_target());
+        let dt = self.scenario.time_step;
+        self.frustration_step.clear();
+        self.frustration_step.extend(self.drivers.iter().map(|d| d.frustration_rate * dt));
+        self.top_speed = self.drivers.iter().map(|d| d.max_speed).fold(0.0, f64::max);
+        self.clear_until = self.step;
+        self.ring.watch_all();
+    }
+}
+
+/// Perceived headways of drivers with one delay; `seen` is the row of that delay.
+fn see_alike(offset: &[f64], leaders: &[u32], seen: &[f64], scene: &mut [f64]) {
+    for (j, ((scene, offset), &leader)) in scene.iter_mut().zip(offset).zip(leaders).enumerate() {
+        *scene = offset + (seen[leader as usize] - seen[j]);
+    }
+}
+
+/// Perceived headways of drivers each with a delay of their own.
+fn see_apart(offset: &[f64], leaders: &[u32], history: &History, delays: &Delays, scene: &mut [f64]) {
+    for (j, delay) in delays.all().iter().enumerate() {
+        let seen = history.seen(*delay as usize);
+        scene[j] = offset[j] + (seen[leaders[j] as usize] - seen[j]);
+    }
+}
