@@ -20,7 +20,7 @@ pub const COLUMNS: usize = 600;
 /// Cells of the map round the ring.
 pub const BINS: usize = 300;
 /// Rows in the window of the flow.
-const FLOW_ROWS: usize = 10;
+const FLOW_ROWS: usize = 40;
 /// Seconds over which growth is measured.
 const GROWTH_WINDOW: f64 = 60.0;
 /// Amplitude below which a wave cannot be told from rounding, m.

@@ -27,6 +27,9 @@ interface Events {
 }
 type Listener<K extends keyof Events> = (value: Events[K]) => void
 
+/** A run that has just begun is not squeezed to the left of an empty map, s. */
+const SHORTEST_WINDOW = 60
+
 export const PLAYBACKS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100] as const
 
 export class Session {
@@ -38,6 +41,8 @@ export class Session {
   playback = 5
   /** The vehicle that the page follows, index from 0. */
   watched = 0
+  /** Takes what went wrong elsewhere, while a dialog that shows it itself is open. */
+  onTrouble: ((messages: readonly string[]) => void) | null = null
   series: Series = empty(0)
   #pace = new Pace()
   #last = 0
@@ -62,6 +67,11 @@ export class Session {
   }
 
   #emit<K extends keyof Events>(event: K, value: Events[K]): void {
+    if (event === 'trouble' && this.onTrouble) {
+      const messages = value as readonly string[]
+      if (messages.length > 0) this.onTrouble(messages)
+      return
+    }
     for (const listener of this.#listeners.get(event) ?? []) (listener as Listener<K>)(value)
   }
 
@@ -114,7 +124,7 @@ export class Session {
   seek(time: number): Promise<boolean> {
     return this.#change('seek', { time })
   }
-  async restart(keep: boolean): Promise<boolean> {
+  restart(keep: boolean): Promise<boolean> {
     return this.#change('restart', { keep })
   }
   async extend(): Promise<void> {
@@ -160,9 +170,6 @@ export class Session {
     this.#emit('watch', vehicle)
   }
 
-  trouble(...messages: string[]): void {
-    this.#emit('trouble', messages)
-  }
 
   // --- playing
 
@@ -193,6 +200,13 @@ export class Session {
     this.playback = playback
     this.#pace.reset()
     this.#emit('playing', this.playing)
+  }
+  /** The time that map and charts show, s: the whole run until the map is full, then its latest part. */
+  window(): [number, number] {
+    const { interval } = this.snapshot
+    const most = this.start.map.columns * interval
+    const now = (this.series.time.at(-1) ?? 0) + interval
+    return now > most ? [now - most, now] : [0, Math.max(now, SHORTEST_WINDOW)]
   }
   /** Playback that the machine manages, or null while it keeps up. */
   behind(): number | null {

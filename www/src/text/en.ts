@@ -22,7 +22,7 @@ export const en = {
 
   header: {
     presets: 'Experiments',
-    choose: 'Choose an experiment …',
+    choose: 'Experiments …',
     share: 'Share',
     files: 'Data',
     help: 'Help',
@@ -50,19 +50,17 @@ export const en = {
           : 'With these drivers a small wave grows.'
       }
       if (v.critical_discrete <= 0) return `Drivers react after ${seconds(v.reaction_time)}; no delay at all would be small enough.`
-      return `Drivers react after ${seconds(v.reaction_time)}; this ring tolerates ${unit(exactly(v.critical_discrete, 3), 's')}.`
+      return `Drivers react after ${seconds(v.reaction_time)}; this ring tolerates ${unit(exactly(v.critical_discrete, 3), 's')}${v.critical === null ? '' : ` (τ = ${unit(exactly(v.critical, 3), 's')})`}.`
     },
     wave: (v: Verdict): string => {
       if (v.stable === null || v.rate === null || v.mode === null || v.rate === 0) return ''
       return v.stable
-        ? `The slowest wave to fade, ${jams(v.mode)}, ${pace(v.rate)}.`
-        : `The fastest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
+        ? `Its slowest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
+        : `Its fastest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
     },
-    continuous: (v: Verdict): string =>
-      v.critical === null || !v.alike ? '' : `τ = ${unit(exactly(v.critical, 3), 's')} in continuous time`,
     lane: (lane: number): string => `Lane ${lane}:`,
     measured: (g: Growth): string => {
-      const over = `measured over ${span(g.window)}: `
+      const over = g.window < 59 ? `measured, ${span(g.window)}: ` : 'measured: '
       if (!g.linear) return `${over}large waves, beyond linear theory`
       if (Math.abs(g.rate) < 2 * g.standard_error || Math.abs(g.rate) < 1e-6) return `${over}neither grows nor fades`
       return over + pace(g.rate)
@@ -261,6 +259,8 @@ export const en = {
       ['← →', 'move a slider; on the ring: choose a car'],
       ['?', 'this help'],
     ] as readonly (readonly [string, string])[],
+    threshold:
+      'The tolerated reaction time holds for the run, which goes in time steps; τ beside it is that of continuous time.',
     reading:
       'In the map every row of the road is a line of time: blue where cars are slower than the equilibrium speed v∞, amber where they are faster, on a logarithmic scale from 1 cm/s to 10 m/s. Stripes that fall to the right are jams that move against the traffic.',
     version: (v: string, place: 'worker' | 'page'): string =>

@@ -4,7 +4,8 @@ import { fixed } from '../format'
 import type { Legend, Quantity } from '../shared/protocol'
 import { text } from '../text'
 
-export function legendView(): { element: HTMLElement; show: (legend: Legend, quantity: Quantity) => void } {
+/** `compact`: fewer numbers, for a short bar. */
+export function legendView(compact = false): { element: HTMLElement; show: (legend: Legend, quantity: Quantity) => void } {
   const low = el('span')
   const high = el('span')
   const bar = el('canvas', { class: 'bar', width: 64, height: 1, role: 'img' })
@@ -23,14 +24,11 @@ export function legendView(): { element: HTMLElement; show: (legend: Legend, qua
       }
       bar.setAttribute('aria-label', `${words.name}${words.unit ? `, ${words.unit}` : ''}`)
       low.textContent = words.low
-      high.textContent = words.high
+      high.textContent = [words.high, words.unit].filter(w => w !== '').join(' ')
       ticks.replaceChildren(
-        ...legend.ticks.map(({ value, place }, k) => {
-          const last = k === legend.ticks.length - 1
+        ...legend.ticks.filter(tick => !compact || quantity !== 'difference' || Math.abs(tick.value) !== 0.1).map(({ value, place }) => {
           const sign = quantity === 'difference' && value > 0 ? '+' : ''
-          const span = el('span', { style: `left:${100 * place}%` }, `${sign}${fixed(value, 2)}${last && words.unit ? ` ${words.unit}` : ''}`)
-          if (last) span.style.transform = 'translateX(-70%)'
-          return span
+          return el('span', { style: `left:${100 * place}%` }, `${sign}${fixed(value, 2)}`)
         }),
       )
     },

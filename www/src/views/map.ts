@@ -51,13 +51,17 @@ export async function mapView(session: Session): Promise<HTMLElement> {
   // The canvas moves to where the core runs; what it paints appears here.
   await session.client.ask('canvas', { canvas: canvas.transferControlToOffscreen() })
 
-  let shownFrom = Number.NaN
+  let shown = Number.NaN
+  /** Columns that the picture shows. */
+  let visible = columns
   const axes = () => {
     const { interval, scenario } = session.snapshot
-    const window = columns * interval
-    const start = Math.max(0, (session.series.time.at(-1) ?? 0) + interval - window)
-    if (start === shownFrom) return
-    shownFrom = start
+    const [start, end] = session.window()
+    const window = end - start
+    if (start + end === shown) return
+    shown = start + end
+    visible = window / interval
+    canvas.style.width = `${(100 * columns) / visible}%`
     const most = Math.max(3, Math.floor(picture.clientWidth / 85))
     const times = roundSteps(start, start + window, most).filter(time => time - start < window * 0.93)
     x.replaceChildren(
@@ -74,7 +78,7 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     )
   }
   const again = () => {
-    shownFrom = Number.NaN
+    shown = Number.NaN
     axes()
   }
   new ResizeObserver(() => session.snapshot && again()).observe(picture)
@@ -87,7 +91,7 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     if (asking) return
     asking = true
     const box = picture.getBoundingClientRect()
-    const column = Math.floor(((event.clientX - box.left) / box.width) * columns)
+    const column = Math.floor(((event.clientX - box.left) / box.width) * visible)
     const bin = Math.floor((1 - (event.clientY - box.top) / box.height) * bins)
     const reading = await session.client.ask('probe', { column, bin })
     asking = false

@@ -24,7 +24,7 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
   const travel = el('span', {}, t.travel)
   const middle = el('div', { class: 'ring-middle' }, el('span', {}, t.mean), speed, kmh, flow, travel)
   const field = el('div', { class: 'ring-field', title: t.hint }, canvas, middle)
-  const legend = legendView()
+  const legend = legendView(true)
   const colour = el(
     'select',
     {
@@ -78,8 +78,7 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
     c.setLineDash([])
     const metre = (2 * Math.PI * (outer - width / 2)) / session.snapshot.scenario.length
     const many = frame.positions.length > POINTS
-    const thick = Math.max(3, width * 0.56)
-    for (let j = 0; j < frame.positions.length; j++) {
+        for (let j = 0; j < frame.positions.length; j++) {
       const lane = frame.lanes[j]!
       const away = lane - drawn[j]!
       if (away !== 0) {
@@ -101,6 +100,7 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
       c.translate(r, 0)
       // Along the road is +y now.
       const long = Math.max(3, frame.sizes[2 * j]! * metre)
+      const thick = Math.min(width * 0.6, Math.max(0.9 * long, 6.5))
       const whisker = frame.sizes[2 * j + 1]! * metre
       c.strokeStyle = colours.line
       c.beginPath()

@@ -25,12 +25,10 @@ export function speedsView(session: Session): HTMLElement {
   let watched = ''
   const draw = () => {
     const { time, speeds } = session.series
-    const { interval, mean_equilibrium_speed: rest } = session.snapshot
-    const window = session.start.map.columns * interval
-    const start = Math.max(0, (time.at(-1) ?? 0) + interval - window)
+    const { mean_equilibrium_speed: rest } = session.snapshot
     const top = Math.max(4, 2 * rest, ...speeds.map(s => s.at(-1) ?? 0))
     highest = Math.max(highest, Math.ceil(top / 2) * 2)
-    plot.show([time, ...speeds, time.map(() => rest)], [start, start + window], 0, highest)
+    plot.show([time, ...speeds, time.map(() => rest)], session.window(), 0, highest)
   }
   let highest = 0
   let epoch = -1

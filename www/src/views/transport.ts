@@ -79,8 +79,8 @@ export function transportView(session: Session): HTMLElement {
   return el(
     'div',
     { class: 'transport', role: 'group', 'aria-label': t.title },
-    el('div', { class: 'row' }, play, step, restart, playback, time),
-    el('div', { class: 'timeline' }, line, marks),
+    el('div', { class: 'row' }, play, step, restart, playback),
+    el('div', { class: 'row' }, el('div', { class: 'timeline' }, line, marks), time),
     message,
   )
 }

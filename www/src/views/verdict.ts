@@ -10,10 +10,9 @@ const t = text.verdict
 export function verdictView(session: Session): { element: HTMLElement; preview: (v: Verdict | null) => void } {
   const mark = el('strong')
   const sentence = el('span', { class: 'sentence' })
-  const continuous = el('span', { class: 'continuous' })
   const measured = el('span', { class: 'measured' })
   const more = el('button', { type: 'button', hidden: true, onclick: () => void session.extend() }, t.goOn)
-  const element = el('div', { id: 'verdict', class: 'wide' }, mark, sentence, measured, continuous, more)
+  const element = el('div', { id: 'verdict', class: 'message' }, mark, sentence, measured, more)
   let preview: Verdict | null = null
 
   const put = (node: HTMLElement, value: string) => {
@@ -30,7 +29,6 @@ export function verdictView(session: Session): { element: HTMLElement; preview: 
     const theory = `${lane}${t.critical(v)} ${t.wave(v)}`
     const over = frame?.finished && !crash
     put(sentence, crash && !preview ? `${t.crash(crash.time, crash.behind + 1, crash.ahead + 1)} ${t.crashAdvice}` : over ? `${theory} ${t.end(frame.time)}` : theory)
-    put(continuous, t.continuous(v))
     put(measured, preview || crash || v.stable === null ? '' : frame?.growth ? t.measured(frame.growth) : t.measuring)
     more.hidden = !over
   }
