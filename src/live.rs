@@ -58,8 +58,6 @@ pub struct Growth {
     pub window: f64,
     /// Which Fourier mode of the headways.
     pub mode: usize,
-    /// Whether the wave was small all the while, so that linear theory speaks of it.
-    pub linear: bool,
 }
 
 /// A watched run.
@@ -84,8 +82,10 @@ pub struct Live {
     /// Rows not yet taken: time, mean speed, flow, ΔN, speeds of the watched.
     rows: Vec<f64>,
     crossings: VecDeque<f64>,
-    /// Time, ln|amplitude|, whether small.
-    amplitudes: VecDeque<(f64, f64, bool)>,
+    /// Time and ln|amplitude| of the fastest wave while it is small.
+    amplitudes: VecDeque<(f64, f64)>,
+    /// Whether waves are too large for linear theory now.
+    large: bool,
 }
 
 impl Live {
@@ -108,6 +108,7 @@ impl Live {
             rows: Vec::new(),
             crossings: VecDeque::new(),
             amplitudes: VecDeque::new(),
+            large: false,
             simulation,
         };
         live.plan();
@@ -322,14 +323,27 @@ impl Live {
             self.amplitudes.clear();
             return;
         }
-        self.amplitudes.push_back((s.time(), libm::log(amplitude), small));
-        while self.amplitudes.front().is_some_and(|a| a.0 < s.time() - GROWTH_WINDOW) {
+        // What was measured before the waves became large stays; it begins anew when they are small again.
+        if self.large && small {
+            self.amplitudes.clear();
+        }
+        self.large = !small;
+        if self.large {
+            return;
+        }
+        self.amplitudes.push_back((self.simulation.time(), libm::log(amplitude)));
+        while self.amplitudes.front().is_some_and(|a| a.0 < self.simulation.time() - GROWTH_WINDOW) {
             self.amplitudes.pop_front();
         }
     }
 
-    /// Growth of the wave that theory calls the fastest, over the last minute or since the last change; none
-    /// before ten seconds have been seen.
+    /// Whether waves are too large now for linear theory to speak of them.
+    pub fn is_large(&self) -> bool {
+        self.large
+    }
+
+    /// Growth of the wave that theory calls the fastest, over the last minute in which all waves were small, or
+    /// since the last change; none before ten seconds of that have been seen.
     pub fn growth(&self) -> Option<Growth> {
         let n = self.amplitudes.len() as f64;
         let window = self.amplitudes.back()?.0 - self.amplitudes.front()?.0;
@@ -341,14 +355,13 @@ impl Live {
         let tt: f64 = self.amplitudes.iter().map(|a| (a.0 - t) * (a.0 - t)).sum();
         let ty: f64 = self.amplitudes.iter().map(|a| (a.0 - t) * (a.1 - y)).sum();
         let rate = ty / tt;
-        let rest = |a: &(f64, f64, bool)| a.1 - y - rate * (a.0 - t);
+        let rest = |a: &(f64, f64)| a.1 - y - rate * (a.0 - t);
         let squares: f64 = self.amplitudes.iter().map(|a| rest(a) * rest(a)).sum();
         Some(Growth {
             rate,
             standard_error: libm::sqrt(squares / (n - 2.0) / tt),
             window,
             mode: self.verdict.mode?,
-            linear: self.amplitudes.iter().all(|a| a.2),
         })
     }
 

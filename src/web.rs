@@ -240,8 +240,13 @@ impl Lab {
     }
     /// The growth measured so far as JSON, or `null`.
     pub fn growth(&self) -> String {
-        let one = |g: crate::live::Growth| json!({ "rate": g.rate, "standard_error": g.standard_error, "window": g.window, "mode": g.mode, "linear": g.linear });
+        let one = |g: crate::live::Growth| json!({ "rate": g.rate, "standard_error": g.standard_error, "window": g.window, "mode": g.mode });
         Value::from(self.live.growth().map(one)).to_string()
+    }
+
+    /// Whether waves are too large now for linear theory.
+    pub fn large_waves(&self) -> bool {
+        self.live.is_large()
     }
 
     fn each<T>(&self, value: impl Fn(&Simulation, usize) -> T) -> Vec<T> {

@@ -7,6 +7,8 @@ export function el<K extends keyof HTMLElementTagNameMap>(tag: K, props: Props =
   const element = document.createElement(tag)
   for (const [name, value] of Object.entries(props)) {
     if (typeof value === 'function') element.addEventListener(name.slice(2), value as unknown as EventListener)
+    // Through the object model: a page's policy may forbid style attributes.
+    else if (name === 'style') element.style.cssText = String(value)
     else if (value === true) element.setAttribute(name, '')
     else if (value !== undefined && value !== false) element.setAttribute(name, String(value))
   }

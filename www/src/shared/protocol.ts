@@ -69,8 +69,6 @@ export interface Growth {
   /** Seconds looked back. */
   readonly window: number
   readonly mode: number
-  /** Whether the wave was small enough for linear theory all the while. */
-  readonly linear: boolean
 }
 
 /** What changes by actions and settings only. */
@@ -129,6 +127,8 @@ export interface Frame {
   /** Differs from the snapshot's when that is out of date. */
   readonly changes: number
   readonly growth: Growth | null
+  /** Whether waves are too large now for linear theory; `growth` is of before then. */
+  readonly large: boolean
 }
 
 /** Columns of `Frame.rows` before the speeds. */

@@ -59,13 +59,14 @@ export const en = {
         : `Its fastest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
     },
     lane: (lane: number): string => `Lane ${lane}:`,
-    measured: (g: Growth): string => {
+    measured: (g: Growth, large: boolean): string => {
       const over = g.window < 59 ? `measured, ${span(g.window)}: ` : 'measured: '
-      if (!g.linear) return `${over}large waves, beyond linear theory`
-      if (Math.abs(g.rate) < 2 * g.standard_error || Math.abs(g.rate) < 1e-6) return `${over}neither grows nor fades`
-      return over + pace(g.rate)
+      const now = large ? '; now large waves' : ''
+      if (Math.abs(g.rate) < 2 * g.standard_error || Math.abs(g.rate) < 1e-6) return `${over}neither grows nor fades${now}`
+      return over + pace(g.rate) + now
     },
     measuring: 'measuring …',
+    large: 'large waves, beyond linear theory',
     crash: (t: number, a: number, b: number): string => `Crash at t = ${unit(exactly(t, 2), 's')}: vehicle ${a} ran into vehicle ${b}.`,
     crashAdvice: 'Go back with the time line, lower the reaction time, or restart.',
     end: (t: number): string => `The run ends here, at t = ${unit(fixed(t, 2), 's')}.`,

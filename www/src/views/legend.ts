@@ -4,8 +4,7 @@ import { fixed } from '../format'
 import type { Legend, Quantity } from '../shared/protocol'
 import { text } from '../text'
 
-/** `compact`: fewer numbers, for a short bar. */
-export function legendView(compact = false): { element: HTMLElement; show: (legend: Legend, quantity: Quantity) => void } {
+export function legendView(): { element: HTMLElement; show: (legend: Legend, quantity: Quantity) => void } {
   const low = el('span')
   const high = el('span')
   const bar = el('canvas', { class: 'bar', width: 64, height: 1, role: 'img' })
@@ -26,9 +25,11 @@ export function legendView(compact = false): { element: HTMLElement; show: (lege
       low.textContent = words.low
       high.textContent = [words.high, words.unit].filter(w => w !== '').join(' ')
       ticks.replaceChildren(
-        ...legend.ticks.filter(tick => !compact || quantity !== 'difference' || Math.abs(tick.value) !== 0.1).map(({ value, place }) => {
+        ...legend.ticks.map(({ value, place }) => {
           const sign = quantity === 'difference' && value > 0 ? '+' : ''
-          return el('span', { style: `left:${100 * place}%` }, `${sign}${fixed(value, 2)}`)
+          // On a short bar the minor numbers are left out.
+          const minor = quantity === 'difference' && Math.abs(value) === 0.1
+          return el('span', { class: minor ? 'minor' : undefined, style: `left:${100 * place}%` }, `${sign}${fixed(value, 2)}`)
         }),
       )
     },

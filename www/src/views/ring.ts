@@ -24,7 +24,7 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
   const travel = el('span', {}, t.travel)
   const middle = el('div', { class: 'ring-middle' }, el('span', {}, t.mean), speed, kmh, flow, travel)
   const field = el('div', { class: 'ring-field', title: t.hint }, canvas, middle)
-  const legend = legendView(true)
+  const legend = legendView()
   const colour = el(
     'select',
     {

@@ -29,7 +29,7 @@ export function verdictView(session: Session): { element: HTMLElement; preview: 
     const theory = `${lane}${t.critical(v)} ${t.wave(v)}`
     const over = frame?.finished && !crash
     put(sentence, crash && !preview ? `${t.crash(crash.time, crash.behind + 1, crash.ahead + 1)} ${t.crashAdvice}` : over ? `${theory} ${t.end(frame.time)}` : theory)
-    put(measured, preview || crash || v.stable === null ? '' : frame?.growth ? t.measured(frame.growth) : t.measuring)
+    put(measured, preview || crash || v.stable === null ? '' : frame?.growth ? t.measured(frame.growth, frame.large) : frame?.large ? t.large : t.measuring)
     more.hidden = !over
   }
   session.on('snapshot', () => {

@@ -175,6 +175,7 @@ export class Host {
       epoch: lab.epoch(),
       changes: lab.changes(),
       growth: JSON.parse(lab.growth()),
+      large: lab.large_waves(),
     }
   }
 }
