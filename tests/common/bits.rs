@@ -1,0 +1,55 @@
+//! Scenarios whose tables must have the same bits everywhere, and the hash that is compared.
+
+use ringroad::measurement::Measurement;
+use ringroad::preset::preset;
+use ringroad::probe::measure;
+use ringroad::scenario::Scenario;
+use ringroad::simulation::Simulation;
+
+/// What is run and measured: a name, a scenario, a measurement.
+pub fn cases() -> Vec<(&'static str, Scenario, Measurement)> {
+    let table = |json: &str| Measurement::from_json(json).unwrap();
+    let trajectories = || table(r#"{"table":"trajectories","every":1}"#);
+    let scenario = |json: &str| Scenario::from_json(json).unwrap();
+    let named = |name: &str, until| {
+        let scenario = preset(name).unwrap().scenario;
+        Scenario { until, ..scenario }
+    };
+    vec![
+        ("phantom jam to the collision", named("phantom-jam", 600.0), trajectories()),
+        ("instant", named("instant", 100.0), table(r#"{"table":"speed-map"}"#)),
+        ("flow", named("stable", 100.0), table(r#"{"table":"flow-map","window":5}"#)),
+        ("modes", named("phantom-jam", 100.0), table(r#"{"table":"modes"}"#)),
+        (
+            "drivers that differ, actions",
+            scenario(
+                r#"{"until":60,"driver":{"reaction_time":0.4},
+                "exceptions":["20%:sensitivity=1.7,reaction-time=0.2","3:max-speed=25"],
+                "actions":["at=0:1:nudge=1","at=10:7:brake=3","at=20:all:reaction-time=0.6","at=25:5-9:nudge=-0.5",
+                "at=30:10%:sensitivity=3","at=40:all:reaction-time=0.1"]}"#,
+            ),
+            trajectories(),
+        ),
+        (
+            "random start, long step",
+            scenario(r#"{"until":200,"vehicles":40,"start":"random","seed":7,"time_step":0.1,"lanes":2}"#),
+            trajectories(),
+        ),
+        ("load balance", named("load-balance", 100.0), trajectories()),
+        ("aggressive", named("aggressive", 200.0), table(r#"{"table":"events"}"#)),
+        ("three lanes", named("three-lanes", 60.0), trajectories()),
+        ("mixed traffic", named("mixed-traffic", 60.0), table(r#"{"table":"events"}"#)),
+    ]
+}
+
+/// FNV-1a (64 bits) of the CSV of the table, as hexadecimal digits.
+pub fn hash(mut simulation: Simulation, measurement: &Measurement) -> String {
+    let scenario = simulation.scenario().clone();
+    let mut probes = [measurement.probe(&scenario).unwrap()];
+    measure(&mut simulation, &mut probes, &mut |_| true);
+    let csv = probes[0].table().to_csv(&scenario, measurement);
+    let hash = csv.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}

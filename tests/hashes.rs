@@ -1,0 +1,29 @@
+//! The same bits everywhere: native half. Every width of vector gives the same tables; their hashes go to the file
+//! that the environment variable `RINGROAD_HASHES` names, where the test in the browser finds them.
+
+#[path = "common/bits.rs"]
+mod bits;
+
+use ringroad::simulation::Simulation;
+use ringroad::vector::Width;
+use std::collections::BTreeMap;
+
+#[test]
+fn every_width_gives_the_same_bits() {
+    let mut hashes = BTreeMap::new();
+    for (name, scenario, measurement) in bits::cases() {
+        let by_width: Vec<_> = Width::available()
+            .into_iter()
+            .map(|width| {
+                let mut simulation = Simulation::new(&scenario).unwrap();
+                simulation.set_width(width);
+                bits::hash(simulation, &measurement)
+            })
+            .collect();
+        assert!(by_width.iter().all(|hash| *hash == by_width[0]), "{name}: {by_width:?}");
+        hashes.insert(name, by_width[0].clone());
+    }
+    let different: std::collections::BTreeSet<_> = hashes.values().collect();
+    assert_eq!(different.len(), hashes.len(), "each case has a table of its own");
+    std::fs::write(env!("RINGROAD_HASHES"), serde_json::to_string_pretty(&hashes).unwrap()).unwrap();
+}
