@@ -15,6 +15,8 @@
 //! | [`error`] | what a refusal says |
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
+//! | [`link`] | a scenario as the readable part of a link |
+//! | [`colour`] | colour of speed and frustration, for ring and maps |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
 //! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 //! | [`preset`] | scenarios with names |
@@ -32,6 +34,11 @@
 
 pub mod action;
 pub mod batch;
+//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
+//! | [`table`] | columns, units, CSV |
+
+pub mod action;
+pub mod colour;
 pub mod driver;
 pub mod error;
 pub mod exp;
@@ -39,6 +46,8 @@ pub mod fit;
 pub mod following;
 pub mod frustration;
 pub mod history;
+pub mod link;
+pub mod live;
 pub mod measurement;
 pub mod parameters;
 pub mod preset;
@@ -51,6 +60,9 @@ pub mod simulation;
 pub mod stability;
 pub mod table;
 pub mod vector;
+pub mod verdict;
+#[cfg(target_arch = "wasm32")]
+pub mod web;
 
 /// The README's example runs with the tests in the documentation.
 #[cfg(doctest)]
