@@ -310,11 +310,12 @@ impl Live {
         let angle = -std::f64::consts::TAU * mode as f64 / lane.len() as f64;
         let (cos, sin) = (libm::cos(angle), libm::sin(angle));
         let (mut turn, mut sum) = ((1.0, 0.0), (0.0, 0.0));
-        let mut small = true;
+        // The largest deviation as a part of the gap to the minimum headway.
+        let mut largest = 0.0_f64;
         for &j in lane {
             let rest = s.driver(j).headway(self.verdict.equilibrium.speed);
             let deviation = s.headway(j) - rest;
-            small &= deviation.abs() <= SMALL * (rest - s.driver(j).min_headway);
+            largest = largest.max(deviation.abs() / (rest - s.driver(j).min_headway));
             sum = (sum.0 + deviation * turn.0, sum.1 + deviation * turn.1);
             turn = (turn.0 * cos - turn.1 * sin, turn.0 * sin + turn.1 * cos);
         }
@@ -324,10 +325,11 @@ impl Live {
             return;
         }
         // What was measured before the waves became large stays; it begins anew when they are small again.
-        if self.large && small {
+        if self.large && largest < SMALL / 4.0 {
+            self.large = false;
             self.amplitudes.clear();
         }
-        self.large = !small;
+        self.large |= largest > SMALL;
         if self.large {
             return;
         }
@@ -417,19 +419,21 @@ impl Live {
 
     /// Sets a parameter. A driver's holds for all drivers from now on; any other, and every one at t = 0 or after
     /// a collision, starts the run again with what was set.
-    pub fn set(&mut self, name: &str, text: &str) -> Result<(), Invalid> {
+    /// Returns whether it started again.
+    pub fn set(&mut self, name: &str, text: &str) -> Result<bool, Invalid> {
         let running = self.simulation.step_index() > 0 && self.simulation.collision().is_none();
         if name == "until" {
             let parameter = named(name)?;
-            return self.set_until(parameter.parse(text)?);
+            return self.set_until(parameter.parse(text)?).map(|()| false);
         }
         if running && name != "start" && named(name)?.is_of_driver() {
             let parameter = named(name)?;
             let value = parameter.parse(text)?;
-            return self.act(Action { at: 0.0, who: Who::All, effects: vec![Effect::Set(parameter, value)] });
+            let action = Action { at: 0.0, who: Who::All, effects: vec![Effect::Set(parameter, value)] };
+            return self.act(action).map(|()| false);
         }
         *self = Self::new(&self.with(name, text)?)?;
-        Ok(())
+        Ok(true)
     }
 
     /// What theory would say after [`Self::set`].

@@ -119,6 +119,11 @@ impl Lab {
 
     fn replace(&mut self, live: Live) {
         self.live = live;
+        self.began();
+    }
+
+    /// Another run: nothing of the old picture stays.
+    fn began(&mut self) {
         self.epoch += 1;
         self.map.painted = None;
     }
@@ -138,12 +143,8 @@ impl Lab {
 
     /// Sets a parameter by name: a driver's from now on, any other by starting again.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), JsError> {
-        let mut live = self.live.clone();
-        live.set(name, text).map_err(refusal)?;
-        if live.simulation().step_index() == 0 || live.columns_made() < self.live.columns_made() {
-            self.replace(live);
-        } else {
-            self.live = live;
+        if self.live.set(name, text).map_err(refusal)? {
+            self.began();
         }
         Ok(())
     }
