@@ -18,6 +18,7 @@
 //! | [`link`] | a scenario as the readable part of a link |
 //! | [`colour`] | colour of speed and frustration, for ring and maps |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
+//! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 //! | [`preset`] | scenarios with names |
 //! | [`measurement`] | what to measure, plain data |
 //! | [`probe`] | one file a measurement |
@@ -28,6 +29,11 @@
 //! | [`vector`] | vectors as wide as the machine has them |
 //! | [`ring`] | who is ahead, who passed |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
+//! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
+//! | [`table`] | columns, units, CSV |
+
+pub mod action;
+pub mod batch;
 //! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 //! | [`table`] | columns, units, CSV |
 
@@ -51,6 +57,7 @@ pub mod reaction;
 pub mod ring;
 pub mod scenario;
 pub mod simulation;
+pub mod stability;
 pub mod table;
 pub mod vector;
 pub mod verdict;

@@ -17,6 +17,7 @@ use crate::probe::{
     growth::{Growth, Linear},
     lanes::Lanes,
     modes::Modes,
+    overview::{Outcome, Overview},
     speed_map::SpeedMap,
     speeds::Speeds,
     trajectories::Trajectories,
@@ -30,6 +31,13 @@ use serde_json::{Map, Value};
 /// Read it with [`Measurement::from_json`], which fills in defaults and names what is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measurement {
+    /// A run in one row; it is there when the run has ended.
+    Outcome {},
+    /// The whole ring, a row for each time.
+    Overview {
+        /// Time between rows, s.
+        every: f64,
+    },
     /// Every vehicle's state, a row for each vehicle and time.
     Trajectories {
         /// Time between rows, s.
@@ -163,6 +171,9 @@ pub static SETTINGS: [Setting; 12] = [
     Setting { name: "periods", option: "periods", unit: "", min: 2.0, max: 1e6, whole: true, list: false, meaning: "number of periods fitted" },
 ];
 
+/// Numbers that a flow's window may hold, one for each row begun and place.
+const COUNTS: f64 = 1e8;
+
 impl Setting {
     /// What is allowed, in words.
     pub fn allowed(&self) -> String {
@@ -247,7 +258,7 @@ fn number_value(x: f64) -> Value {
 
 impl Measurement {
     /// Every measurement with its default settings, in the order in which people read them.
-    pub fn all() -> [Self; 13] {
+    pub fn all() -> [Self; 15] {
         let every = 1.0;
         [
             Self::Trajectories { every },
@@ -256,13 +267,15 @@ impl Measurement {
             Self::FlowMap { every, bins: 100, window: 18.63 },
             Self::Flow { every, window: 5.0, at: None },
             Self::Modes { every, modes: None, lane: 1 },
-            Self::Growth { every: 0.5, modes: None, lane: 1, from: None, smallest: 1e-9, nonlinearity: 0.01 },
+            Self::Growth { every: 0.5, modes: None, lane: 1, from: None, smallest: 1e-8, nonlinearity: 0.01 },
             Self::CyclicGrowth { vehicle: 1, periods: 5 },
             Self::Equilibrium { every },
             Self::Events {},
             Self::Lanes { every },
             Self::Drivers { every },
             Self::Vehicles { every },
+            Self::Overview { every },
+            Self::Outcome {},
         ]
     }
 
@@ -292,7 +305,14 @@ impl Measurement {
             Self::Lanes { .. } => "lanes",
             Self::Drivers { .. } => "drivers",
             Self::Vehicles { .. } => "vehicles",
+            Self::Overview { .. } => "overview",
+            Self::Outcome {} => "outcome",
         }
+    }
+
+    /// Time between rows, s, where they come at regular times.
+    pub fn every(&self) -> Option<f64> {
+        self.to_map().get("every").and_then(Value::as_f64)
     }
 
     /// The settings that this measurement has.
@@ -480,6 +500,18 @@ impl Measurement {
                 _ => Ok(()),
             }?;
         }
+        let counts = match resolved {
+            Self::FlowMap { every, bins, window } => Some((every, bins, window)),
+            Self::Flow { every, window, .. } => Some((every, 1, window)),
+            _ => None,
+        };
+        if let Some((every, bins, window)) = counts
+            && window / every * bins as f64 > COUNTS
+        {
+            let most = COUNTS * every / bins as f64;
+            let allowed = format!("at most {most} s with rows every {every} s at {bins} places");
+            return Err(Invalid::new("window", window, allowed).within(self.name()));
+        }
         Ok(())
     }
 
@@ -517,6 +549,8 @@ impl Measurement {
             Self::Lanes { every } => Box::new(Lanes::new(steps(every))),
             Self::Drivers { every } => Box::new(Drivers::new(steps(every))),
             Self::Vehicles { every } => Box::new(Vehicles::new(steps(every))),
+            Self::Overview { every } => Box::new(Overview::new(scenario, steps(every))),
+            Self::Outcome {} => Box::new(Outcome::new(scenario)),
         })
     }
 
@@ -531,6 +565,8 @@ impl Measurement {
             }
             Self::Vehicles { every } => (every, 4 * scenario.vehicles),
             Self::Flow { every, .. } => (every, 2),
+            Self::Overview { every } => (every, 6),
+            Self::Outcome {} => (scenario.until.max(1.0), 8),
             Self::Lanes { every } | Self::Equilibrium { every } | Self::Drivers { every } => {
                 (every, 8 * scenario.lanes)
             }
@@ -594,6 +630,7 @@ mod tests {
             (r#"{"table":"speed-map","bins":0}"#, &["speed-map: bins", "0", "from 1"]),
             (r#"{"table":"flow","at":1000}"#, &["flow: at", "1000", "less than 1000 m"]),
             (r#"{"table":"flow","window":-1}"#, &["flow: window", "-1"]),
+            (r#"{"table":"flow","window":1e7,"every":0.01}"#, &["flow: window", "10000000", "1000000 s"]),
             (r#"{"table":"modes","modes":26}"#, &["modes: modes", "26", "at most 25"]),
             (r#"{"table":"growth","from":-1}"#, &["growth: from", "-1"]),
             (r#"{"table":"growth","nonlinearity":0}"#, &["growth: nonlinearity", "0", "from 0.000000000001"]),

@@ -16,8 +16,8 @@ use std::process::ExitCode;
 /// `ringroad run`.
 pub(crate) const SUBCOMMAND: Subcommand = Subcommand { define, run };
 
-/// More memory than the rows of a run may take, bytes.
-const MEMORY: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
+/// More memory than the rows of a run may take, GiB; writing them takes about three times as much.
+const MEMORY: f64 = 4.0;
 
 fn define() -> Command {
     let command = Command::new("run")
@@ -31,18 +31,17 @@ fn define() -> Command {
                 .conflicts_with("table")
                 .help("Write a summary of the run as JSON instead of a table"),
         );
-    measurement_options(scenario_options(command))
+    measurement_options(scenario_options(command), "trajectories")
 }
 
-/// `--table` and the settings of the measurements.
-fn measurement_options(command: Command) -> Command {
+/// `--table` and the settings of the measurements; `default` is the table where none is named.
+pub(crate) fn measurement_options(command: Command, default: &str) -> Command {
     let names: Vec<_> = Measurement::all().iter().map(Measurement::name).collect();
     let mut command = command.next_help_heading("Measurement").arg(
         Arg::new("table")
             .long("table")
             .value_name("NAME")
-            .default_value("trajectories")
-            .help(format!("What to measure: {}", names.join(", "))),
+            .help(format!("What to measure: {} [default: {default}]", names.join(", "))),
     );
     for (k, setting) in SETTINGS.iter().enumerate() {
         if SETTINGS[..k].iter().any(|s| s.option == setting.option) {
@@ -66,8 +65,9 @@ fn measurement_options(command: Command) -> Command {
     command.next_help_heading(None::<&str>)
 }
 
-fn measurement(matches: &ArgMatches) -> Result<Measurement, Failure> {
-    let name = matches.get_one::<String>("table").expect("has a default");
+/// The measurement that the options describe.
+pub(crate) fn measurement(matches: &ArgMatches, default: &str) -> Result<Measurement, Failure> {
+    let name = matches.get_one::<String>("table").map_or(default, String::as_str);
     let mut given = Vec::new();
     for (k, setting) in SETTINGS.iter().enumerate() {
         let first = !SETTINGS[..k].iter().any(|s| s.option == setting.option);
@@ -81,12 +81,11 @@ fn measurement(matches: &ArgMatches) -> Result<Measurement, Failure> {
 
 /// Runs the scenario to its end and gives the table, with a progress bar on a terminal.
 pub(crate) fn tabulate(scenario: &Scenario, measurement: &Measurement) -> Result<Table, Failure> {
-    if measurement.bytes(scenario) > MEMORY {
-        let (gib, most) =
-            (measurement.bytes(scenario) / MEMORY * 8.0, MEMORY / 8.0 / 1024.0 / 1024.0 / 1024.0 * 8.0);
+    let gib = measurement.bytes(scenario) / (1024.0 * 1024.0 * 1024.0);
+    if gib > MEMORY {
         let allowed =
-            format!("at most {most} GiB: measure less often with --every, or fewer vehicles or bins");
-        return Err(Invalid::new("rows of the table", format!("{gib:.0} GiB"), allowed).into());
+            format!("at most {MEMORY} GiB: measure less often with --every, or fewer vehicles or bins");
+        return Err(Invalid::new("rows of the table", format!("{gib:.1} GiB"), allowed).into());
     }
     let mut probes = [measurement.probe(scenario)?];
     let mut simulation = Simulation::new(scenario)?;
@@ -113,7 +112,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         bar.finish_and_clear();
         output.write(&summary(&simulation, &watched))?;
     } else {
-        let measurement = measurement(matches)?;
+        let measurement = measurement(matches, "trajectories")?;
         let table = tabulate(&scenario, &measurement)?;
         output.write(&table.to_csv(&scenario, &measurement))?;
     }
