@@ -76,6 +76,8 @@ pub struct Live {
     balance: Vec<usize>,
     equilibrium: Equilibrium,
     verdict: Verdict,
+    /// Lanes have changed since theory was asked: with several lanes it is asked only when somebody wants to know.
+    stale: bool,
     /// Columns made so far; the last [`COLUMNS`] are kept.
     made: u64,
     columns: VecDeque<Column>,
@@ -103,6 +105,7 @@ impl Live {
             balance: Vec::new(),
             equilibrium: Equilibrium { speed: 0.0, density: 0.0, flow: 0.0 },
             verdict: Verdict::default(),
+            stale: true,
             made: 0,
             columns: VecDeque::new(),
             rows: Vec::new(),
@@ -122,7 +125,14 @@ impl Live {
         &self.simulation
     }
     /// What theory says now.
-    pub fn verdict(&self) -> &Verdict {
+    pub fn verdict(&mut self) -> &Verdict {
+        if std::mem::take(&mut self.stale) {
+            let scenario = self.simulation.scenario();
+            let lanes: Vec<Vec<Driver>> = (self.lanes().iter())
+                .map(|lane| lane.iter().map(|&j| *self.simulation.driver(j)).collect())
+                .collect();
+            self.verdict = verdict(&lanes, scenario.length, scenario.time_step);
+        }
         &self.verdict
     }
     /// The equilibrium with the vehicles spread evenly over all lanes; the density is that of a lane.
@@ -214,13 +224,11 @@ impl Live {
         let scenario = self.simulation.scenario();
         let drivers: Vec<Driver> = (0..scenario.vehicles).map(|j| *self.simulation.driver(j)).collect();
         self.balance = self.simulation.vehicles_per_lane().to_vec();
-        let lanes: Vec<Vec<Driver>> =
-            self.lanes().iter().map(|lane| lane.iter().map(|&j| drivers[j]).collect()).collect();
         // Spread evenly, every lane holds its share of the headways.
         if let Some(e) = equilibrium(&drivers, scenario.length * scenario.lanes as f64) {
             self.equilibrium = e;
         }
-        self.verdict = verdict(&lanes, scenario.length, scenario.time_step);
+        self.stale = true;
         self.changes += 1;
         self.amplitudes.clear();
     }
@@ -305,6 +313,12 @@ impl Live {
     }
 
     fn record_amplitude(&mut self, lanes: &[Vec<usize>]) {
+        if lanes.len() == 1 {
+            self.verdict();
+        }
+        if self.stale {
+            return;
+        }
         let (Some(mode), Some(lane)) = (self.verdict.mode, lanes.get(self.verdict.lane - 1)) else { return };
         let s = &self.simulation;
         let angle = -std::f64::consts::TAU * mode as f64 / lane.len() as f64;

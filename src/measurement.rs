@@ -354,7 +354,8 @@ impl Measurement {
             | Self::Equilibrium { every }
             | Self::Lanes { every }
             | Self::Drivers { every }
-            | Self::Vehicles { every } => vec![("every", Number(every))],
+            | Self::Vehicles { every }
+            | Self::Overview { every } => vec![("every", Number(every))],
             Self::Speeds { every, vehicles } => vec![("every", Number(every)), ("vehicles", List(vehicles))],
             Self::SpeedMap { every, bins, lane } => {
                 vec![("every", Number(every)), ("bins", Whole(bins)), ("lane", Whole(lane))]
@@ -379,7 +380,7 @@ impl Measurement {
             Self::CyclicGrowth { vehicle, periods } => {
                 vec![("vehicle", Whole(vehicle)), ("periods", Whole(periods))]
             }
-            Self::Events {} => vec![],
+            Self::Events {} | Self::Outcome {} => vec![],
         }
     }
 

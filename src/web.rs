@@ -179,7 +179,8 @@ impl Lab {
     // ---- Reading -----------------------------------------------------------------------------------------------
 
     /// What changes by actions and settings only, as JSON.
-    pub fn snapshot(&self) -> String {
+    pub fn snapshot(&mut self) -> String {
+        let said = verdict(self.live.verdict());
         let live = &self.live;
         let scenario = live.simulation().scenario();
         let now = live.settled().driver;
@@ -193,7 +194,7 @@ impl Lab {
             "scenario": scenario,
             "link": link::format(scenario),
             "driver": driver,
-            "verdict": verdict(live.verdict()),
+            "verdict": said,
             "watched": watched,
             "interval": live.interval(),
             "flow_window": live.flow_window(),
