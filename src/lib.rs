@@ -34,9 +34,6 @@
 //! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 //! | `web` | the façade for the page, on WebAssembly only |
 //! | `main.rs`, `command/` | the command, native only |
-//! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
-//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
-//! | [`table`] | columns, units, CSV |
 
 pub mod action;
 pub mod batch;
