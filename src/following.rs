@@ -16,6 +16,7 @@
 
 use crate::driver::Driver;
 use crate::exp::exp_within;
+use crate::history::History;
 use crate::vector::{CHUNK, Width, kernel};
 
 /// Steps between full evaluations of all factors.
@@ -167,13 +168,45 @@ kernel! {
 }
 
 kernel! {
-    /// Positions: x += v·dt.
-    fn drive(old: &[f64], speed: &[f64], dt: f64, new: &mut [f64]) {
+    /// Positions: x += v·dt. `extremes` gets the smallest and the largest of the first `vehicles` speeds, which does not
+    /// depend on the order of comparisons.
+    fn drive(old: &[f64], speed: &[f64], dt: f64, vehicles: usize, new: &mut [f64], extremes: &mut [f64; 2]) {
+        let (mut least, mut most) = ([f64::INFINITY; CHUNK], [f64::NEG_INFINITY; CHUNK]);
         for start in (0..speed.len()).step_by(CHUNK) {
             let (old, speed) = (chunk(old, start), chunk(speed, start));
             let new = chunk_mut(new, start);
             for j in 0..CHUNK {
                 new[j] = old[j] + speed[j] * dt;
+            }
+            if start + CHUNK <= vehicles {
+                for j in 0..CHUNK {
+                    least[j] = if speed[j] < least[j] { speed[j] } else { least[j] };
+                    most[j] = if speed[j] > most[j] { speed[j] } else { most[j] };
+                }
+            } else {
+                for v in &speed[..vehicles - start] {
+                    least[0] = least[0].min(*v);
+                    most[0] = most[0].max(*v);
+                }
+            }
+        }
+        *extremes = [least.into_iter().fold(f64::INFINITY, f64::min), most.into_iter().fold(f64::NEG_INFINITY, f64::max)];
+    }
+}
+
+kernel! {
+    /// What everyone sees where each has a delay of their own: row `head − delay` of `rows` rows, `row` numbers each.
+    fn see_apart(offset: &[f64], leaders: &[u32], delays: &[u32], data: &[f64], geometry: [u32; 3], scene: &mut [f64]) {
+        let [head, rows, row] = geometry;
+        for start in (0..delays.len()).step_by(CHUNK) {
+            let delays: &[u32; CHUNK] = (&delays[start..start + CHUNK]).try_into().expect("padded");
+            let leaders: &[u32; CHUNK] = (&leaders[start..start + CHUNK]).try_into().expect("padded");
+            let offset = chunk(offset, start);
+            let scene = chunk_mut(scene, start);
+            for j in 0..CHUNK {
+                let back = if delays[j] > head { rows } else { 0 };
+                let begin = ((head + back) - delays[j]) as usize * row as usize;
+                scene[j] = offset[j] + (data[begin + leaders[j] as usize] - data[begin + start + j]);
             }
         }
     }
@@ -238,9 +271,25 @@ impl Following {
         self.state.speed[j] = speed;
     }
 
-    /// New displacements after a step of `dt` seconds.
-    pub fn drive(&self, old: &[f64], dt: f64, new: &mut [f64]) {
-        drive(self.width, old, &self.state.speed, dt, new);
+    /// What everyone sees, each with a delay of their own; all slices padded.
+    pub fn see_apart(
+        &self,
+        offset: &[f64],
+        leaders: &[u32],
+        delays: &[u32],
+        history: &History,
+        scene: &mut [f64],
+    ) {
+        let (data, geometry) = history.rows();
+        see_apart(self.width, offset, leaders, delays, data, geometry, scene);
+    }
+
+    /// New displacements after a step of `dt` seconds; how far the fastest of the first `vehicles` has gone ahead of the
+    /// slowest, m.
+    pub fn drive(&self, old: &[f64], dt: f64, vehicles: usize, new: &mut [f64]) -> f64 {
+        let mut extremes = [0.0; 2];
+        drive(self.width, old, &self.state.speed, dt, vehicles, new, &mut extremes);
+        (extremes[1] - extremes[0]) * dt
     }
 
     /// New speeds where the leader of j is j + 1, and the displacements that all see are in one row `seen`, in which

@@ -5,8 +5,8 @@
 //! times that. So a weak mode leaves the linear regime while the strong ones are still in it.
 //!
 //! The linear window of a mode begins with the first state, from a given time on, where that share is small; it
-//! ends before the first where it is large, where the amplitude has sunk into rounding (positions of ten kilometres
-//! make headways good to about 10⁻¹² m), or where the lane is disturbed: by an action, or by a vehicle that changes
+//! ends before the first where it is large, where the amplitude has sunk into rounding (over ten kilometres it
+//! comes to some 10⁻¹¹ m), or where the lane is disturbed: by an action, or by a vehicle that changes
 //! lanes. In the window a mode of equal drivers is one complex exponential, as soon as what the start excited beside
 //! the leading root has died away.
 
