@@ -1,4 +1,4 @@
-// Times the core as the page uses it, in Node and in Chromium: `npm run bench`. The cases are those of `cargo bench`,
+// Times the core as the page uses it, in Node and in Chromium: `npm run bench [-- part of a name]`. The cases are those of `cargo bench`,
 // whose figures of the last time are shown beside them.
 import { existsSync, readFileSync } from 'node:fs'
 import { cpus } from 'node:os'
@@ -9,6 +9,7 @@ import * as measure from './measure.mjs'
 
 const at = path => fileURLToPath(new URL(path, import.meta.url))
 const cases = JSON.parse(readFileSync(at('../../benches/cases.json'), 'utf8'))
+const pattern = process.argv[2] ?? ''
 const RUNS = 1000
 const STEPS = 200
 
@@ -32,13 +33,15 @@ async function table(title, step, batch) {
   print(['', 'wasm', 'JavaScript', 'ratio', 'native', 'ratio'])
   for (const one of cases) {
     const { vehicles } = one.scenario
-    row(`${one.name}, N = ${vehicles}`, await step(one), native(`${one.name}, 128 bits`, vehicles))
+    const label = `${one.name}, N = ${vehicles}`
+    if (label.includes(pattern)) row(label, await step(one), native(`${one.name}, 128 bits`, vehicles))
   }
-  row(`${RUNS} runs of N = 50`, await batch(cases[0], RUNS, STEPS))
+  const label = `${RUNS} runs of N = 50`
+  if (label.includes(pattern)) row(label, await batch(cases[0], RUNS, STEPS))
 }
 
-const load = cpus()
-console.log(`${load[0].model}, ${load.length} cores, ${new Date().toISOString().slice(0, 10)}`)
+const processors = cpus()
+console.log(`${processors[0].model}, ${processors.length} cores, ${new Date().toISOString().slice(0, 10)}`)
 console.log('JavaScript: one lane of equal drivers in plain JavaScript. Native: vectors of 128 bits, from the last `cargo bench`.')
 
 measure.load(readFileSync(at('../pkg/ringroad_bg.wasm')))
