@@ -4,14 +4,16 @@
 //!
 //! # The house
 //!
-//! A [`scenario`] is the only input: plain data that determines a run to the last bit. A simulation is the only
-//! state. A probe is the only way to measure. A [`table`] is the only way out to a file.
+//! A [`scenario`] is the only input: plain data that determines a run to the last bit. A [`simulation`] is the only
+//! state. A [`probe`] is the only way to measure. A [`table`] is the only way out to a file.
 //!
 //! | room | what lives there |
 //! |---|---|
 //! | [`parameters`] | the one table of parameters: names, units, ranges, meanings |
 //! | [`scenario`] | the input: road, start, drivers, validation, JSON |
 //! | [`action`] | the grammar of timed actions and of drivers who differ |
+//! | [`link`] | a scenario as the readable part of a link |
+//! | [`preset`] | scenarios with names |
 //! | [`error`] | what a refusal says |
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
@@ -20,13 +22,16 @@
 //! | [`measurement`] | what to measure, plain data |
 //! | [`probe`] | one file a measurement |
 //! | [`fit`] | straight lines and exponentials through points |
+//! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 //! | [`simulation`] | the state and its step |
 //! | [`following`] | perceived headways to speeds, all vehicles at once |
 //! | [`history`], [`reaction`] | what was Δ ago, and how long ago that is for whom |
 //! | [`vector`] | vectors as wide as the machine has them |
 //! | [`ring`] | who is ahead, who passed |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
-//! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
+//! | [`measurement`] | what to measure, plain data |
+//! | [`probe`] | one file a measurement |
+//! | [`fit`] | straight lines and exponentials through points |
 //! | [`table`] | columns, units, CSV |
 //! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 //! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
@@ -35,6 +40,14 @@
 pub mod action;
 pub mod batch;
 pub mod claim;
+//! | [`batch`] | grids and Monte Carlo over scenarios: plan, runs, summary |
+//! | [`colour`] | tables to pictures |
+//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
+//! | `web` | the façade for the page, on WebAssembly only |
+//! | `main.rs`, `command/` | the command, native only |
+
+pub mod action;
+pub mod batch;
 pub mod colour;
 pub mod driver;
 pub mod error;
@@ -44,6 +57,8 @@ pub mod fit;
 pub mod following;
 pub mod frustration;
 pub mod history;
+pub mod link;
+pub mod live;
 pub mod measurement;
 pub mod parameters;
 pub mod plot;
@@ -57,6 +72,9 @@ pub mod simulation;
 pub mod stability;
 pub mod table;
 pub mod vector;
+pub mod verdict;
+#[cfg(target_arch = "wasm32")]
+pub mod web;
 
 /// The README's example runs with the tests in the documentation.
 #[cfg(doctest)]

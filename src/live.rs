@@ -1,0 +1,504 @@
+//! A run that somebody watches: the simulation together with what a page shows of it: the space-time map, the
+//! speeds of a few vehicles, flow and lane balance over time, the growth measured so far, the verdict of theory.
+//!
+//! Everything here is bounded in memory, however long the run. Tables for files come from the probes.
+
+use crate::action::{Action, Effect, Who};
+use crate::driver::{Driver, Equilibrium, equilibrium};
+use crate::error::Invalid;
+use crate::link;
+use crate::parameters::Parameter;
+use crate::scenario::{Scenario, assign};
+use crate::simulation::Simulation;
+use crate::verdict::{Verdict, verdict};
+use std::collections::VecDeque;
+
+/// Seconds between two columns of the map, rounded to whole steps.
+pub const INTERVAL: f64 = 0.5;
+/// Columns that the map keeps.
+pub const COLUMNS: usize = 600;
+/// Cells of the map round the ring.
+pub const BINS: usize = 300;
+/// Rows in the window of the flow.
+const FLOW_ROWS: usize = 40;
+/// Seconds over which growth is measured.
+const GROWTH_WINDOW: f64 = 60.0;
+/// Amplitude below which a wave cannot be told from rounding, m.
+const ROUNDING: f64 = 1e-9;
+/// A wave is small while no headway differs from rest by more than this part of the gap to the minimum headway.
+const SMALL: f64 = 0.2;
+
+/// What the page opens with: fifty vehicles beyond the critical reaction time, one of them nudged.
+pub fn opening() -> Scenario {
+    let mut scenario = link::base();
+    scenario.driver.reaction_time = 0.75;
+    scenario.actions = vec![Action { at: 0.0, who: Who::Vehicle(1), effects: vec![Effect::Nudge(1.0)] }];
+    scenario
+}
+
+/// One column of the map.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Time, s.
+    pub time: f64,
+    /// The equilibrium speed then, m/s.
+    pub equilibrium: f64,
+    /// Speeds (m/s) from x = 0 on, lane after lane, interpolated between vehicles; NaN in an empty lane.
+    pub speeds: Vec<f32>,
+}
+
+/// Growth of one wave, measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// Slope of ln|amplitude|, 1/s.
+    pub rate: f64,
+    /// Of the slope, 1/s.
+    pub standard_error: f64,
+    /// Seconds looked back.
+    pub window: f64,
+    /// Which Fourier mode of the headways.
+    pub mode: usize,
+}
+
+/// A watched run.
+#[derive(Clone, Debug)]
+pub struct Live {
+    simulation: Simulation,
+    /// Steps between two rows.
+    every: u64,
+    /// Vehicles (indices) whose speeds are followed.
+    watched: Vec<usize>,
+    /// Steps of the scenario's actions, ascending; what has passed is behind `next`.
+    agenda: Vec<u64>,
+    next: usize,
+    /// Grows with everything that changes what theory says.
+    changes: u64,
+    balance: Vec<usize>,
+    equilibrium: Equilibrium,
+    verdict: Verdict,
+    /// Lanes have changed since theory was asked: with several lanes it is asked only when somebody wants to know.
+    stale: bool,
+    /// Columns made so far; the last [`COLUMNS`] are kept.
+    made: u64,
+    columns: VecDeque<Column>,
+    /// Rows not yet taken: time, mean speed, flow, ΔN, speeds of the watched.
+    rows: Vec<f64>,
+    crossings: VecDeque<f64>,
+    /// Time and ln|amplitude| of the fastest wave while it is small.
+    amplitudes: VecDeque<(f64, f64)>,
+    /// Whether waves are too large for linear theory now.
+    large: bool,
+}
+
+impl Live {
+    /// The run of a scenario, at t = 0.
+    pub fn new(scenario: &Scenario) -> Result<Self, Invalid> {
+        let simulation = Simulation::new(scenario)?;
+        let n = scenario.vehicles;
+        let watched = if n < 5 { (0..n).collect() } else { (0..5).map(|k| k * n / 5).collect() };
+        let mut live = Self {
+            every: scenario.steps(INTERVAL).max(1),
+            watched,
+            agenda: Vec::new(),
+            next: 0,
+            changes: 0,
+            balance: Vec::new(),
+            equilibrium: Equilibrium { speed: 0.0, density: 0.0, flow: 0.0 },
+            verdict: Verdict::default(),
+            stale: true,
+            made: 0,
+            columns: VecDeque::new(),
+            rows: Vec::new(),
+            crossings: VecDeque::new(),
+            amplitudes: VecDeque::new(),
+            large: false,
+            simulation,
+        };
+        live.plan();
+        live.consider();
+        live.record();
+        Ok(live)
+    }
+
+    /// The simulation.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+    /// What theory says now.
+    pub fn verdict(&mut self) -> &Verdict {
+        if std::mem::take(&mut self.stale) {
+            let scenario = self.simulation.scenario();
+            let lanes: Vec<Vec<Driver>> = (self.lanes().iter())
+                .map(|lane| lane.iter().map(|&j| *self.simulation.driver(j)).collect())
+                .collect();
+            self.verdict = verdict(&lanes, scenario.length, scenario.time_step);
+        }
+        &self.verdict
+    }
+    /// The equilibrium with the vehicles spread evenly over all lanes; the density is that of a lane.
+    pub fn equilibrium(&self) -> Equilibrium {
+        self.equilibrium
+    }
+    /// A number that grows whenever [`Self::verdict`] or the drivers have changed.
+    pub fn changes(&self) -> u64 {
+        self.changes
+    }
+    /// Vehicles (indices) whose speeds are in the rows.
+    pub fn watched(&self) -> &[usize] {
+        &self.watched
+    }
+    /// Seconds between two rows, and two columns of the map.
+    pub fn interval(&self) -> f64 {
+        self.every as f64 * self.simulation.scenario().time_step
+    }
+    /// Window of the flow in the rows, s.
+    pub fn flow_window(&self) -> f64 {
+        self.interval() * FLOW_ROWS as f64
+    }
+    /// Columns of the map made so far.
+    pub fn columns_made(&self) -> u64 {
+        self.made
+    }
+    /// The columns kept, the oldest first.
+    pub fn columns(&self) -> &VecDeque<Column> {
+        &self.columns
+    }
+    /// The rows since this was last asked, one after another: time (s), mean speed (m/s), flow through L/2 (veh/s;
+    /// NaN until a window has passed), ΔN, speeds of the watched vehicles (m/s).
+    pub fn take_rows(&mut self) -> Vec<f64> {
+        std::mem::take(&mut self.rows)
+    }
+
+    /// At most so many steps. Returns how many were taken.
+    pub fn step(&mut self, steps: u32) -> u32 {
+        for taken in 0..steps {
+            if self.simulation.is_finished() {
+                return taken;
+            }
+            let before = self.simulation.step_index();
+            self.simulation.step();
+            if self.simulation.step_index() == before {
+                return taken;
+            }
+            self.observe();
+        }
+        steps
+    }
+
+    fn observe(&mut self) {
+        let step = self.simulation.step_index();
+        if self.agenda.get(self.next).is_some_and(|&due| due <= step) {
+            self.consider();
+        }
+        if step.is_multiple_of(self.every) {
+            if self.simulation.vehicles_per_lane() != self.balance {
+                self.consider();
+            }
+            self.record();
+        }
+    }
+
+    /// Does something now.
+    pub fn act(&mut self, action: Action) -> Result<(), Invalid> {
+        self.simulation.act(action)?;
+        self.plan();
+        self.consider();
+        Ok(())
+    }
+
+    /// Moves the end of the run, s.
+    pub fn set_until(&mut self, until: f64) -> Result<(), Invalid> {
+        self.simulation.set_until(until)
+    }
+
+    fn plan(&mut self) {
+        let scenario = self.simulation.scenario();
+        self.agenda = scenario.actions.iter().map(|a| scenario.steps(a.at)).collect();
+        self.agenda.sort_unstable();
+    }
+
+    /// Drivers, lanes or positions have changed: theory is asked anew, and growth is measured from now on.
+    fn consider(&mut self) {
+        let step = self.simulation.step_index();
+        self.next = self.agenda.partition_point(|&due| due <= step);
+        let scenario = self.simulation.scenario();
+        let drivers: Vec<Driver> = (0..scenario.vehicles).map(|j| *self.simulation.driver(j)).collect();
+        self.balance = self.simulation.vehicles_per_lane().to_vec();
+        // Spread evenly, every lane holds its share of the headways.
+        if let Some(e) = equilibrium(&drivers, scenario.length * scenario.lanes as f64) {
+            self.equilibrium = e;
+        }
+        self.stale = true;
+        self.changes += 1;
+        self.amplitudes.clear();
+    }
+
+    /// The vehicles of each lane in the order of the road, from the lowest number on.
+    fn lanes(&self) -> Vec<Vec<usize>> {
+        let mut lanes = vec![Vec::new(); self.simulation.scenario().lanes];
+        for j in 0..self.simulation.vehicles() {
+            let lane: &mut Vec<usize> = &mut lanes[self.simulation.lane(j)];
+            if lane.is_empty() {
+                let mut k = j;
+                loop {
+                    lane.push(k);
+                    k = self.simulation.leader(k);
+                    if k == j {
+                        break;
+                    }
+                }
+            }
+        }
+        lanes
+    }
+
+    fn record(&mut self) {
+        let lanes = self.lanes();
+        self.record_column(&lanes);
+        self.record_row();
+        self.record_amplitude(&lanes);
+    }
+
+    fn record_column(&mut self, lanes: &[Vec<usize>]) {
+        if self.columns.len() == COLUMNS {
+            self.columns.pop_front();
+        }
+        self.made += 1;
+        let mut speeds = vec![f32::NAN; lanes.len() * BINS];
+        for (lane, cells) in lanes.iter().zip(speeds.chunks_exact_mut(BINS)) {
+            self.fill(lane, cells);
+        }
+        let (time, equilibrium) = (self.simulation.time(), self.equilibrium.speed);
+        self.columns.push_back(Column { time, equilibrium, speeds });
+    }
+
+    /// Speed at the centre of every cell, linear between each vehicle and its leader.
+    fn fill(&self, lane: &[usize], cells: &mut [f32]) {
+        let s = &self.simulation;
+        let width = s.scenario().length / cells.len() as f64;
+        for &j in lane {
+            let (x, gap, v) = (s.position(j), s.headway(j), s.speed(j));
+            let ahead = s.speed(s.leader(j));
+            let mut cell = (x / width - 0.5).ceil().max(0.0);
+            loop {
+                let part = ((cell + 0.5) * width - x) / gap;
+                if !(part < 1.0) {
+                    break;
+                }
+                cells[cell as usize % cells.len()] = (v + part * (ahead - v)) as f32;
+                cell += 1.0;
+            }
+        }
+    }
+
+    fn record_row(&mut self) {
+        let s = &self.simulation;
+        let (n, length) = (s.vehicles(), s.scenario().length);
+        let crossed: f64 = (0..n).map(|j| (s.unwrapped_position(j) / length - 0.5).floor()).sum();
+        self.crossings.push_back(crossed);
+        let flow = if self.crossings.len() > FLOW_ROWS {
+            self.crossings.pop_front().map_or(f64::NAN, |before| (crossed - before) / self.flow_window())
+        } else {
+            f64::NAN
+        };
+        let mean = s.speeds().iter().sum::<f64>() / n as f64;
+        let per_lane = s.vehicles_per_lane();
+        let imbalance = per_lane.iter().max().unwrap_or(&0) - per_lane.iter().min().unwrap_or(&0);
+        let width = 4 + self.watched.len();
+        if self.rows.len() >= width * COLUMNS {
+            self.rows.drain(..width);
+        }
+        self.rows.extend([s.time(), mean, flow, imbalance as f64]);
+        self.rows.extend(self.watched.iter().map(|&j| s.speed(j)));
+    }
+
+    fn record_amplitude(&mut self, lanes: &[Vec<usize>]) {
+        if lanes.len() == 1 {
+            self.verdict();
+        }
+        if self.stale {
+            return;
+        }
+        let (Some(mode), Some(lane)) = (self.verdict.mode, lanes.get(self.verdict.lane - 1)) else { return };
+        let s = &self.simulation;
+        let angle = -std::f64::consts::TAU * mode as f64 / lane.len() as f64;
+        let (cos, sin) = (libm::cos(angle), libm::sin(angle));
+        let (mut turn, mut sum) = ((1.0, 0.0), (0.0, 0.0));
+        // The largest deviation as a part of the gap to the minimum headway.
+        let mut largest = 0.0_f64;
+        for &j in lane {
+            let rest = s.driver(j).headway(self.verdict.equilibrium.speed);
+            let deviation = s.headway(j) - rest;
+            largest = largest.max(deviation.abs() / (rest - s.driver(j).min_headway));
+            sum = (sum.0 + deviation * turn.0, sum.1 + deviation * turn.1);
+            turn = (turn.0 * cos - turn.1 * sin, turn.0 * sin + turn.1 * cos);
+        }
+        let amplitude = libm::hypot(sum.0, sum.1) / lane.len() as f64;
+        if amplitude < ROUNDING {
+            self.amplitudes.clear();
+            return;
+        }
+        // What was measured before the waves became large stays; it begins anew when they are small again.
+        if self.large && largest < SMALL / 4.0 {
+            self.large = false;
+            self.amplitudes.clear();
+        }
+        self.large |= largest > SMALL;
+        if self.large {
+            return;
+        }
+        self.amplitudes.push_back((self.simulation.time(), libm::log(amplitude)));
+        while self.amplitudes.front().is_some_and(|a| a.0 < self.simulation.time() - GROWTH_WINDOW) {
+            self.amplitudes.pop_front();
+        }
+    }
+
+    /// Whether waves are too large now for linear theory to speak of them.
+    pub fn is_large(&self) -> bool {
+        self.large
+    }
+
+    /// Growth of the wave that theory calls the fastest, over the last minute in which all waves were small, or
+    /// since the last change; none before ten seconds of that have been seen.
+    pub fn growth(&self) -> Option<Growth> {
+        let n = self.amplitudes.len() as f64;
+        let window = self.amplitudes.back()?.0 - self.amplitudes.front()?.0;
+        if window < 10.0 || n < 5.0 {
+            return None;
+        }
+        let t = self.amplitudes.iter().map(|a| a.0).sum::<f64>() / n;
+        let y = self.amplitudes.iter().map(|a| a.1).sum::<f64>() / n;
+        let tt: f64 = self.amplitudes.iter().map(|a| (a.0 - t) * (a.0 - t)).sum();
+        let ty: f64 = self.amplitudes.iter().map(|a| (a.0 - t) * (a.1 - y)).sum();
+        let rate = ty / tt;
+        let rest = |a: &(f64, f64)| a.1 - y - rate * (a.0 - t);
+        let squares: f64 = self.amplitudes.iter().map(|a| rest(a) * rest(a)).sum();
+        Some(Growth {
+            rate,
+            standard_error: libm::sqrt(squares / (n - 2.0) / tt),
+            window,
+            mode: self.verdict.mode?,
+        })
+    }
+
+    /// What this run has been so far, as a scenario of its own: it ends now.
+    pub fn so_far(&self) -> Scenario {
+        let mut scenario = self.simulation.scenario().clone();
+        // The step in which vehicles touch belongs to the run.
+        let steps = self.simulation.step_index() + u64::from(self.simulation.collision().is_some());
+        scenario.until = steps as f64 * scenario.time_step;
+        scenario
+    }
+
+    /// A fresh start with what holds now: what was set for all drivers on the way becomes the default driver, and
+    /// of the actions only those at t = 0 remain.
+    pub fn settled(&self) -> Scenario {
+        let mut scenario = self.simulation.scenario().clone();
+        let now = self.simulation.step_index();
+        let set_for_all: Vec<_> = (scenario.actions_in_time().into_iter())
+            .filter(|&(step, k)| step <= now && scenario.actions[k].who == Who::All)
+            .flat_map(|(_, k)| scenario.actions[k].effects.clone())
+            .filter_map(|effect| if let Effect::Set(p, value) = effect { Some((p, value)) } else { None })
+            .collect();
+        for (parameter, value) in set_for_all {
+            assign(&mut scenario.driver, parameter, value);
+            for exception in &mut scenario.exceptions {
+                exception.values.retain(|(p, _)| *p != parameter);
+            }
+        }
+        scenario.exceptions.retain(|e| !e.values.is_empty());
+        let is_set = |e: &Effect| matches!(e, Effect::Set(..));
+        let steps = |a: &Action| (a.at / scenario.time_step).round() as u64;
+        scenario.actions.retain(|a| steps(a) == 0 && !(a.who == Who::All && a.effects.iter().all(is_set)));
+        scenario
+    }
+
+    /// The scenario that a parameter (or `start`) set to `text` leads to, if it must start again; `None` where it
+    /// is set on the way.
+    pub fn with(&self, name: &str, text: &str) -> Result<Scenario, Invalid> {
+        let mut scenario = self.settled();
+        if name == "start" {
+            scenario.start = text.parse()?;
+        } else {
+            let parameter = named(name)?;
+            parameter.set(&mut scenario, parameter.parse(text)?)?;
+            if name == "vehicles" {
+                let n = scenario.vehicles;
+                scenario.actions.retain(|a| a.who.check(n).is_ok());
+            }
+        }
+        scenario.validate()?;
+        Ok(scenario)
+    }
+
+    /// Sets a parameter. A driver's holds for all drivers from now on; any other, and every one at t = 0 or after
+    /// a collision, starts the run again with what was set.
+    /// Returns whether it started again.
+    pub fn set(&mut self, name: &str, text: &str) -> Result<bool, Invalid> {
+        let running = self.simulation.step_index() > 0 && self.simulation.collision().is_none();
+        if name == "until" {
+            let parameter = named(name)?;
+            return self.set_until(parameter.parse(text)?).map(|()| false);
+        }
+        if running && name != "start" && named(name)?.is_of_driver() {
+            let parameter = named(name)?;
+            let value = parameter.parse(text)?;
+            let action = Action { at: 0.0, who: Who::All, effects: vec![Effect::Set(parameter, value)] };
+            return self.act(action).map(|()| false);
+        }
+        *self = Self::new(&self.with(name, text)?)?;
+        Ok(true)
+    }
+
+    /// What theory would say after [`Self::set`].
+    pub fn preview(&self, name: &str, text: &str) -> Result<Verdict, Invalid> {
+        let scenario = self.with(name, text)?;
+        let drivers = scenario.drivers();
+        let mut rest = drivers.as_slice();
+        let mut lanes = Vec::new();
+        let balance =
+            if scenario.vehicles == self.simulation.vehicles() && scenario.lanes == self.balance.len() {
+                self.balance.clone()
+            } else {
+                scenario.vehicles_per_lane()
+            };
+        for count in balance {
+            let (lane, others) = rest.split_at(count);
+            lanes.push(lane.to_vec());
+            rest = others;
+        }
+        Ok(verdict(&lanes, scenario.length, scenario.time_step))
+    }
+
+    /// The same scenario from its beginning, with all its actions, or with those at t = 0 only.
+    pub fn restarted(&self, keep_actions: bool) -> Result<Self, Invalid> {
+        let mut scenario = self.simulation.scenario().clone();
+        if !keep_actions {
+            let steps: Vec<_> = scenario.actions.iter().map(|a| scenario.steps(a.at)).collect();
+            let mut k = 0;
+            scenario.actions.retain(|_| {
+                k += 1;
+                steps[k - 1] == 0
+            });
+        }
+        Self::new(&scenario)
+    }
+
+    /// The same scenario from its beginning without the action at that place of the list.
+    pub fn without(&self, index: usize) -> Result<Self, Invalid> {
+        let mut scenario = self.simulation.scenario().clone();
+        if index >= scenario.actions.len() {
+            let allowed = format!("a place from 1 to {}", scenario.actions.len());
+            return Err(Invalid::new("actions", index + 1, allowed));
+        }
+        scenario.actions.remove(index);
+        Self::new(&scenario)
+    }
+}
+
+fn named(name: &str) -> Result<&'static Parameter, Invalid> {
+    Parameter::named(name).ok_or_else(|| {
+        let names: Vec<_> = crate::parameters::PARAMETERS.iter().map(Parameter::hyphenated).collect();
+        Invalid::new("parameter", crate::parameters::quoted(name), names.join(", "))
+    })
+}

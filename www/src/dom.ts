@@ -1,0 +1,52 @@
+// Elements, made in one expression.
+type Child = Node | string | null | undefined
+type Props = Record<string, string | number | boolean | ((event: never) => void) | undefined>
+
+/** An element; `on…` props are listeners, booleans set or leave out an attribute. */
+export function el<K extends keyof HTMLElementTagNameMap>(tag: K, props: Props = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag)
+  for (const [name, value] of Object.entries(props)) {
+    if (typeof value === 'function') element.addEventListener(name.slice(2), value as unknown as EventListener)
+    // Through the object model: a page's policy may forbid style attributes.
+    else if (name === 'style') element.style.cssText = String(value)
+    else if (value === true) element.setAttribute(name, '')
+    else if (value !== undefined && value !== false) element.setAttribute(name, String(value))
+  }
+  element.append(...children.filter((c): c is Node | string => c !== null && c !== undefined))
+  return element
+}
+
+/** A titled card: the frame of every view. */
+export function card(id: string, title: string, ...children: Child[]): { card: HTMLElement; note: HTMLElement } {
+  const note = el('span', { class: 'note' })
+  const section = el(
+    'section',
+    { id, class: 'card', 'aria-labelledby': `${id}-title` },
+    el('header', {}, el('h2', { id: `${id}-title` }, title), note),
+    ...children,
+  )
+  return { card: section, note }
+}
+
+/** A canvas that has as many pixels as the screen shows; `draw` gets its size in CSS pixels. */
+export function drawing(canvas: HTMLCanvasElement, draw: (c: CanvasRenderingContext2D, w: number, h: number) => void): () => void {
+  const context = canvas.getContext('2d')!
+  const redraw = () => {
+    const { clientWidth: w, clientHeight: h } = canvas
+    if (w === 0 || h === 0) return
+    const ratio = Math.max(1, window.devicePixelRatio || 1)
+    const [pw, ph] = [Math.round(w * ratio), Math.round(h * ratio)]
+    if (canvas.width !== pw || canvas.height !== ph) {
+      canvas.width = pw
+      canvas.height = ph
+    }
+    context.setTransform(ratio, 0, 0, ratio, 0, 0)
+    context.clearRect(0, 0, w, h)
+    draw(context, w, h)
+  }
+  new ResizeObserver(redraw).observe(canvas)
+  return redraw
+}
+
+/** The value of a custom property of the page's style, such as `--ink`. */
+export const style = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim()

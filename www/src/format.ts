@@ -1,0 +1,23 @@
+// Numbers as people read them: as many digits as mean something.
+
+/** At most so many decimals, without trailing zeros; a true minus sign. */
+export function fixed(value: number, decimals: number): string {
+  const text = value.toFixed(decimals)
+  const short = text.includes('.') ? text.replace(/\.?0+$/, '') : text
+  return (short === '-0' ? '0' : short).replace('-', '\u2212')
+}
+
+/** Always so many decimals. */
+export const exactly = (value: number, decimals: number): string => value.toFixed(decimals).replace('-', '\u2212')
+
+/** A number with its unit, apart by a narrow no-break space. */
+export const unit = (value: string, of: string): string => (of === '' ? value : `${value}\u202f${of}`)
+
+/** A span of time that people can picture. */
+export function span(seconds: number): string {
+  if (seconds < 9.95) return unit(fixed(seconds, 1), 's')
+  if (seconds < 180) return unit(fixed(seconds, 0), 's')
+  if (seconds < 7200) return unit(fixed(seconds / 60, 0), 'min')
+  if (seconds < 2 * 86400) return unit(fixed(seconds / 3600, 0), 'h')
+  return unit(fixed(seconds / 86400, 0), 'd')
+}

@@ -1,0 +1,293 @@
+// Every text that a person reads on the page. The core's refusals come as they are; a second language is a
+// second object of this type.
+import { exactly, fixed, span, unit } from '../format'
+import type { Growth, Verdict } from '../shared/protocol'
+
+const seconds = (s: number) => unit(fixed(s, 3), 's')
+const jams = (n: number) => (n === 1 ? '1 jam' : `${n} jams`)
+const pace = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
+
+export const en = {
+  title: 'Ringroad',
+  subtitle: 'traffic jams out of nothing',
+
+  boot: {
+    starting: 'Starting …',
+    failed: (why: string) => `Ringroad cannot start here: ${why}`,
+    advice:
+      'It needs WebAssembly. A page opened from disk, or shown under a strict security policy, may not load it: open the one-file version, ringroad.html, or ask whoever runs the site to allow ‘wasm-unsafe-eval’.',
+    oneFile: 'Open ringroad.html',
+    fallback: 'Workers are not allowed here, so the page itself computes.',
+  },
+
+  header: {
+    presets: 'Experiments',
+    choose: 'Experiments …',
+    share: 'Share',
+    files: 'Data',
+    help: 'Help',
+    fullscreen: 'Full screen',
+    theme: 'Light or dark',
+    next: 'Try next:',
+    close: 'Close',
+  },
+
+  trouble: {
+    title: 'That did not work',
+    rest: 'Everything else was taken.',
+    dismiss: 'Dismiss',
+  },
+
+  verdict: {
+    stable: 'Stable',
+    unstable: 'Unstable',
+    open: 'No wave',
+    critical: (v: Verdict): string => {
+      if (v.stable === null) return 'No wave can run on this ring: its vehicles stand, or there is only one.'
+      if (!v.alike || v.critical_discrete === null) {
+        return v.stable
+          ? 'With these drivers every small wave fades.'
+          : 'With these drivers a small wave grows.'
+      }
+      if (v.critical_discrete <= 0) return `Drivers react after ${seconds(v.reaction_time)}; no delay at all would be small enough.`
+      return `Drivers react after ${seconds(v.reaction_time)}; this ring tolerates ${unit(exactly(v.critical_discrete, 3), 's')}${v.critical === null ? '' : ` (τ = ${unit(exactly(v.critical, 3), 's')})`}.`
+    },
+    wave: (v: Verdict): string => {
+      if (v.stable === null || v.rate === null || v.mode === null || v.rate === 0) return ''
+      return v.stable
+        ? `Its slowest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
+        : `Its fastest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
+    },
+    lane: (lane: number): string => `Lane ${lane}:`,
+    measured: (g: Growth, large: boolean): string => {
+      const over = g.window < 59 ? `measured, ${span(g.window)}: ` : 'measured: '
+      const now = large ? '; now large waves' : ''
+      if (Math.abs(g.rate) < 2 * g.standard_error || Math.abs(g.rate) < 1e-6) return `${over}neither grows nor fades${now}`
+      return over + pace(g.rate) + now
+    },
+    measuring: 'measuring …',
+    large: 'large waves, beyond linear theory',
+    crash: (t: number, a: number, b: number): string => `Crash at t = ${unit(exactly(t, 2), 's')}: vehicle ${a} ran into vehicle ${b}.`,
+    crashAdvice: 'Go back with the time line, lower the reaction time, or restart.',
+    end: (t: number): string => `The run ends here, at t = ${unit(fixed(t, 2), 's')}.`,
+    goOn: 'Go on',
+  },
+
+  ring: {
+    title: 'The ring',
+    size: (n: number, km: string, lanes: number): string =>
+      `${n} ${n === 1 ? 'car' : 'cars'} on ${unit(km, 'km')}${lanes > 1 ? `, ${lanes} lanes` : ''}`,
+    mean: 'mean speed',
+    speed: (v: number): string => unit(exactly(v, 1), 'm/s'),
+    kmh: (v: number): string => unit(fixed(v * 3.6, 0), 'km/h'),
+    flow: (q: number, rho: number): string => `${unit(fixed(q * 3600, 0), 'veh/h')} · ${unit(fixed(rho * 1000, 1), 'veh/km')}`,
+    canvas: 'The ring seen from above. Arrow keys choose a car, B brakes it.',
+    travel: 'travel →',
+    car: (n: number): string => `car ${n}`,
+    colour: 'Colour',
+    colours: { difference: 'against v∞', speed: 'speed', frustration: 'frustration' },
+    hint: 'Click a car to watch it; press and hold to brake it.',
+  },
+
+  legend: {
+    difference: { low: 'slower', high: 'faster', unit: 'm/s', name: 'difference from the equilibrium speed' },
+    speed: { low: '', high: '', unit: 'm/s', name: 'speed' },
+    frustration: { low: 'calm', high: 'frustrated', unit: '', name: 'frustration φ' },
+  },
+
+  map: {
+    title: 'Space and time',
+    note: { difference: 'speed against v∞, log scale', speed: 'speed' },
+    canvas: 'Space-time map: position upwards, time to the right.',
+    position: 'position (m)',
+    riding: 'position, riding along (m)',
+    time: 'time (s)',
+    lane: 'Lane',
+    ride: 'Ride along',
+    rideHint: 'Move with the equilibrium speed v∞',
+    reading: (t: number, x: number, v: number, d: number): string =>
+      `t = ${unit(exactly(t, 1), 's')}, x = ${unit(fixed(x, 0), 'm')}: ${unit(exactly(v, 2), 'm/s')} (${d >= 0 ? '+' : ''}${exactly(d, Math.abs(d) < 0.1 ? 3 : 2)})`,
+  },
+
+  speeds: {
+    title: 'Speeds',
+    note: (v: number): string => `m/s · dashed: v∞ = ${exactly(v, 2)}`,
+    car: (n: number): string => `car ${n}`,
+    equilibrium: 'v∞',
+    time: 'time (s)',
+    chart: 'Speeds of some cars over time.',
+  },
+
+  transport: {
+    title: 'Playback',
+    play: 'Play',
+    pause: 'Pause',
+    step: 'Step',
+    restart: 'Restart',
+    playback: 'Playback speed',
+    times: (x: number): string => `× ${x}`,
+    time: (t: number, decimals: number): string => `t = ${unit(exactly(t, decimals), 's')}`,
+    line: 'Time line',
+    lineValue: (t: number): string => `${fixed(t, 1)} seconds`,
+    behind: (x: number): string => `This machine manages about × ${x >= 10 ? fixed(x, 0) : fixed(x, 1)}.`,
+    replaying: 'Replaying …',
+  },
+
+  controls: {
+    title: 'Drivers and road',
+    more: 'More',
+    less: 'Fewer',
+    reset: (name: string): string => `Reset ${name} to its default`,
+    drivers: 'Every driver',
+    road: 'Road and run',
+    names: {
+      vehicles: 'Vehicles',
+      length: 'Ring length',
+      lanes: 'Lanes',
+      time_step: 'Time step',
+      until: 'End of the run',
+      seed: 'Seed',
+      max_speed: 'Top speed',
+      sensitivity: 'Sensitivity',
+      min_headway: 'Minimum headway',
+      vehicle_length: 'Vehicle length',
+      reaction_time: 'Reaction time',
+      frustration_rate: 'Frustration rate',
+      pass_frustration: 'Frustration by a pass',
+    } as Record<string, string>,
+    units: { '': '', s: 'seconds', m: 'metres', 'm/s': 'metres per second', '1/s': 'per second' } as Record<string, string>,
+    number: (name: string): string => `${name}, as a number`,
+    start: 'Start',
+    starts: {
+      uniform: 'uniform',
+      'one-lane': 'all in lane 1',
+      staggered: 'staggered',
+      random: 'random',
+    } as Record<string, string>,
+    nudge: (n: number): string => `Nudge car ${n}`,
+    nudgeHint: 'Push it 1 m ahead',
+    brake: (n: number): string => `Brake car ${n}`,
+    brakeHint: 'Stand still for 3 s (key B)',
+    preview: 'would be',
+  },
+
+  tabs: { label: 'More views', lanes: 'Lanes', car: 'Car', actions: 'Actions', stability: 'Stability', flow: 'Flow' },
+
+  lanes: {
+    imbalance: 'ΔN, fullest minus emptiest lane',
+    flow: (window: number): string => `flow at L/2 over ${unit(fixed(window, 2), 's')} (veh/h)`,
+    one: 'One lane: ΔN is 0.',
+    counts: (counts: readonly number[]): string => counts.map((n, k) => `lane ${k + 1}: ${n}`).join(' · '),
+    changes: (n: number): string => (n === 1 ? '1 lane change so far' : `${n} lane changes so far`),
+    imbalanceChart: 'Difference between the fullest and the emptiest lane over time.',
+    flowChart: 'Flow over time.',
+  },
+
+  car: {
+    which: 'Vehicle',
+    speed: 'speed',
+    headway: 'headway',
+    perceived: 'headway as seen',
+    frustration: 'frustration φ',
+    attempt: 'P(φ), attempt within 1 s',
+    changes: 'lane changes',
+    distance: 'distance driven',
+    lane: 'lane',
+    own: 'Its own parameters, from now on',
+    set: 'Set',
+  },
+
+  actions: {
+    none: 'Nothing has been done yet. Press a car, move a slider, or nudge.',
+    remove: (text: string): string => `Remove ${text} and replay`,
+    clear: 'Restart without them',
+    clearHint: 'Keeps what belongs to t = 0',
+    at: (t: string): string => `${t} s`,
+    all: 'all',
+    vehicle: (who: string): string => (who === 'all' ? 'all cars' : /^\d+$/.test(who) ? `car ${who}` : `cars ${who}`),
+    brake: (s: string): string => `brake for ${s} s`,
+    nudge: (m: string): string => `nudge by ${m} m`,
+    add: 'Add',
+    addLabel: 'Do now, such as 7:brake=3',
+  },
+
+  share: {
+    title: 'Share',
+    link: 'Link to this experiment, with everything done so far',
+    embed: 'HTML for a course page',
+    copy: 'Copy',
+    copied: 'Copied',
+    select: 'Selected: press Ctrl+C',
+    shortcut: 'The link holds only what differs from the default.',
+  },
+
+  files: {
+    title: 'Data',
+    export: 'Save the run so far as CSV',
+    table: 'Table',
+    tables: {
+      trajectories: 'Trajectories of all vehicles',
+      'speed-map': 'Space-time map of speed',
+      speeds: 'Speeds of the watched cars',
+      'flow-map': 'Space-time map of flow',
+      flow: 'Flow at L/2',
+      events: 'Lane changes, passes, collision',
+      lanes: 'Vehicles per lane',
+      growth: 'Growth of each mode',
+    } as Record<string, string>,
+    every: 'A row every',
+    save: 'Save CSV',
+    show: 'Show as text',
+    cancel: 'Cancel',
+    scenario: 'Save the scenario (JSON)',
+    open: 'Open a scenario (JSON) or a saved table (CSV)',
+    made: (name: string, kb: string): string => `${name}, ${kb} kB`,
+    running: (part: number): string => `Repeating the run: ${fixed(100 * part, 0)} %`,
+    cancelled: 'Cancelled.',
+    opened: (name: string): string => `${name} is open.`,
+    note: 'The file names the scenario and the program’s version; the command gives the same bytes.',
+  },
+
+  help: {
+    title: 'Help',
+    what: 'Cars on a ring road follow each other, and every driver reacts a little late. Below a critical reaction time every disturbance fades; above it the smallest one grows into jams that travel backwards. The page says where the threshold lies before the traffic shows it.',
+    keys: [
+      ['Space', 'play or pause'],
+      ['.', 'one step'],
+      ['R', 'restart, keeping the actions'],
+      ['N', 'nudge the watched car'],
+      ['B', 'brake the watched car'],
+      ['← →', 'move a slider; on the ring: choose a car'],
+      ['?', 'this help'],
+    ] as readonly (readonly [string, string])[],
+    threshold:
+      'The tolerated reaction time holds for the run, which goes in time steps; τ beside it is that of continuous time.',
+    reading:
+      'In the map every row of the road is a line of time: blue where cars are slower than the equilibrium speed v∞, amber where they are faster, on a logarithmic scale from 1 cm/s to 10 m/s. Stripes that fall to the right are jams that move against the traffic.',
+    version: (v: string, place: 'worker' | 'page'): string =>
+      `Version ${v}; the core runs in ${place === 'worker' ? 'a worker' : 'the page itself'}.`,
+  },
+
+  live: {
+    state: (t: number, mean: number, slowest: number, fastest: number): string =>
+      `${fixed(t, 0)} seconds. Mean speed ${exactly(mean, 1)} metres per second, from ${exactly(slowest, 1)} to ${exactly(fastest, 1)}.`,
+    jams: (slow: number): string =>
+      slow === 0 ? 'Nobody stands.' : slow === 1 ? 'One car stands.' : `${slow} cars stand.`,
+    playing: 'Playing.',
+    paused: 'Paused.',
+  },
+
+  plane: {
+    stable: 'stable',
+    unstable: 'unstable',
+    newell: 'Newell’s limit',
+    vehicles: 'vehicles N',
+    reaction: 'reaction time Δ (s)',
+    canvas: 'Stability plane: vehicles to the right, reaction time upwards. Arrow keys move the point.',
+    value: (n: number, delta: number): string => `${n} vehicles, reaction time ${fixed(delta, 2)} seconds`,
+    continuous: 'τ(N), continuous time',
+    discrete: (dt: string): string => `in steps of ${dt} s`,
+  },
+}
+
+export type Dictionary = typeof en

@@ -1,0 +1,57 @@
+// What was done to the traffic, in words; each can be taken back.
+import { el } from '../dom'
+import type { Session } from '../session'
+import { text } from '../text'
+
+const t = text.actions
+
+/** `at=40:7:brake=3` in words. */
+export function inWords(action: string): { when: string; what: string } {
+  const [, at = '', who = '', effects = ''] = /^at=([^:]*):([^:]*):(.*)$/.exec(action) ?? []
+  const one = (effect: string): string => {
+    const [name = '', value = ''] = effect.split('=')
+    if (name === 'brake') return t.brake(value)
+    if (name === 'nudge') return t.nudge(value)
+    return `${(text.controls.names[name.replaceAll('-', '_')] ?? name).toLowerCase()} ${value}`
+  }
+  return { when: t.at(at), what: `${t.vehicle(who)}: ${effects.split(',').map(one).join(', ')}` }
+}
+
+export function actionsView(session: Session): HTMLElement {
+  const list = el('ul', { class: 'actions' })
+  const none = el('p', {}, t.none)
+  const clear = el('button', { type: 'button', id: 'clear', title: t.clearHint, onclick: () => void session.restart(false) }, t.clear)
+  const input = el('input', { type: 'text', id: 'do', placeholder: '7:brake=3', 'aria-label': t.addLabel, style: 'flex:1;width:auto' })
+  const form = el(
+    'form',
+    {
+      class: 'row',
+      onsubmit: async (event: SubmitEvent) => {
+        event.preventDefault()
+        if (input.value.trim() !== '' && (await session.act(input.value.trim()))) input.value = ''
+      },
+    },
+    input,
+    el('button', { type: 'submit' }, t.add),
+  )
+  let shown = ''
+  session.on('snapshot', ({ scenario: { actions } }) => {
+    if (shown === actions.join()) return
+    shown = actions.join()
+    none.hidden = actions.length > 0
+    clear.hidden = actions.length === 0
+    list.replaceChildren(
+      ...actions.map((action, index) => {
+        const { when, what } = inWords(action)
+        return el(
+          'li',
+          {},
+          el('span', { class: 'when' }, when),
+          el('span', {}, what),
+          el('button', { type: 'button', 'aria-label': t.remove(`${when}, ${what}`), onclick: () => void session.remove(index) }, '✕'),
+        )
+      }),
+    )
+  })
+  return el('div', {}, none, list, form, el('div', { class: 'row' }, clear))
+}

@@ -1,0 +1,59 @@
+// The head of the page: its name, the experiments, and the doors to sharing, data and help.
+import { el } from '../dom'
+import type { Session } from '../session'
+import { text } from '../text'
+
+const t = text.header
+
+/** Four corners. */
+function icon(): SVGElement {
+  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg')
+  svg.setAttribute('viewBox', '0 0 16 16')
+  svg.setAttribute('width', '15')
+  svg.setAttribute('height', '15')
+  const path = document.createElementNS('http://www.w3.org/2000/svg', 'path')
+  path.setAttribute('d', 'M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4')
+  path.setAttribute('fill', 'none')
+  path.setAttribute('stroke', 'currentColor')
+  path.setAttribute('stroke-width', '1.8')
+  svg.append(path)
+  return svg
+}
+
+export function headerView(session: Session, dialogs: { share: HTMLDialogElement; files: HTMLDialogElement; help: HTMLDialogElement }): { element: HTMLElement; note: HTMLElement } {
+  const words = el('p')
+  const note = el('div', { id: 'preset', role: 'status', hidden: true }, words, el('button', { type: 'button', 'aria-label': t.close, onclick: () => (note.hidden = true) }, '✕'))
+  const presets = el(
+    'select',
+    {
+      id: 'presets',
+      'aria-label': t.presets,
+      onchange: async () => {
+        const preset = session.start.presets.find(p => p.name === presets.value)
+        if (!preset) return
+        if (await session.preset(preset.name)) {
+          words.replaceChildren(el('strong', {}, `${preset.title}. `), `${preset.notice} `, el('em', {}, `${t.next} `), preset.next)
+          note.hidden = false
+          session.play()
+        }
+        presets.value = ''
+      },
+    },
+    el('option', { value: '' }, t.choose),
+    ...session.start.presets.map(p => el('option', { value: p.name }, p.title)),
+  )
+  const open = (dialog: HTMLDialogElement) => () => dialog.showModal()
+  const full = () => void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen()).catch(() => {})
+  const element = el(
+    'header',
+    { class: 'top' },
+    el('h1', {}, text.title),
+    el('span', { class: 'subtitle' }, text.subtitle),
+    presets,
+    el('button', { type: 'button', id: 'open-share', onclick: open(dialogs.share) }, t.share),
+    el('button', { type: 'button', id: 'open-files', onclick: open(dialogs.files) }, t.files),
+    document.fullscreenEnabled ? el('button', { type: 'button', class: 'wide-only', 'aria-label': t.fullscreen, title: t.fullscreen, onclick: full }, icon()) : null,
+    el('button', { type: 'button', id: 'open-help', 'aria-label': t.help, onclick: open(dialogs.help) }, '?'),
+  )
+  return { element, note }
+}

@@ -1,0 +1,55 @@
+// Several lanes: how unevenly they are filled, and the flow, over time.
+import { el } from '../dom'
+import type { Session } from '../session'
+import { text } from '../text'
+import { chart, palette } from './chart'
+
+const t = text.lanes
+
+export function lanesView(session: Session): HTMLElement {
+  const counts = el('div', { class: 'note', style: 'margin:0;text-align:left' })
+  const imbalance = chart(t.imbalanceChart)
+  const flow = chart(t.flowChart)
+  const flowTitle = el('h3')
+  const several = el('div', { class: 'stack' }, el('h3', {}, t.imbalance), imbalance.element)
+  const element = el('div', {}, counts, several, flowTitle, flow.element)
+  imbalance.element.style.minHeight = flow.element.style.minHeight = '80px'
+  const dress = () => {
+    const colours = palette(session.view.dark)
+    imbalance.restyle([{ label: t.imbalance, colour: colours[0]!, width: 2 }])
+    flow.restyle([{ label: t.flowChart, colour: colours[1]!, width: 2 }])
+  }
+  const draw = () => {
+    if (element.hidden) return
+    const { time, imbalance: delta, flow: q } = session.series
+    const window = session.window()
+    const perHour = q.map(v => (v === null ? null : v * 3600))
+    const { lanes } = session.snapshot.scenario
+    imbalance.show([time, delta], window, 0, Math.max(4, ...delta) * 1.05)
+    flow.show([time, perHour], window, 0, Math.max(1000, ...perHour.map(v => v ?? 0)) * 1.1)
+    const { lanes: where, laneChanges } = session.frame
+    const each = Array.from({ length: lanes }, () => 0)
+    for (const lane of where) each[lane]!++
+    counts.textContent = lanes === 1 ? t.one : `${t.counts(each)} · ${t.changes(laneChanges.reduce((a, b) => a + b, 0))}`
+  }
+  session.on('legends', () => session.snapshot && dress())
+  session.on('snapshot', ({ flow_window, scenario }) => {
+    several.hidden = scenario.lanes === 1
+    flowTitle.textContent = t.flow(flow_window)
+  })
+  let drawn = 0
+  session.on('frame', () => {
+    // Ten times a second is enough for a chart of half seconds.
+    const now = performance.now()
+    if (session.playing && now - drawn < 100) return
+    drawn = now
+    draw()
+  })
+  new MutationObserver(() => {
+    if (!element.hidden) {
+      dress()
+      if (session.frame) draw()
+    }
+  }).observe(element, { attributeFilter: ['hidden'] })
+  return element
+}

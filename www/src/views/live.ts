@@ -1,0 +1,32 @@
+// The traffic in words, every few seconds, for people who listen to the page.
+import { el } from '../dom'
+import type { Session } from '../session'
+import { text } from '../text'
+
+const EVERY = 8000
+/** Slower than this a car stands, m/s. */
+const STANDS = 0.1
+
+export function liveView(session: Session): HTMLElement {
+  const element = el('div', { id: 'live', class: 'hidden', role: 'status', 'aria-live': 'polite' })
+  let last = 0
+  session.on('frame', frame => {
+    const now = performance.now()
+    if (!session.playing || now - last < EVERY) return
+    last = now
+    const { speeds } = frame
+    let [sum, low, high, standing] = [0, Number.POSITIVE_INFINITY, 0, 0]
+    for (const v of speeds) {
+      sum += v
+      low = Math.min(low, v)
+      high = Math.max(high, v)
+      if (v < STANDS) standing++
+    }
+    element.textContent = `${text.live.state(frame.time, sum / speeds.length, low, high)} ${text.live.jams(standing)}`
+  })
+  session.on('playing', playing => {
+    last = playing ? performance.now() : last
+    element.textContent = playing ? text.live.playing : text.live.paused
+  })
+  return element
+}

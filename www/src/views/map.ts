@@ -1,0 +1,120 @@
+// The space-time map. The core paints it, a column per interval; here are its frame, its axes and the reading
+// under the pointer.
+import { card, el } from '../dom'
+import { fixed } from '../format'
+import type { Session } from '../session'
+import { text } from '../text'
+import { legendView } from './legend'
+
+const t = text.map
+
+/** Round numbers between two ends, at most so many steps apart. */
+export function roundSteps(low: number, high: number, most: number): number[] {
+  const rough = (high - low) / most
+  const power = 10 ** Math.floor(Math.log10(rough))
+  const step = [1, 2, 3, 5, 6, 10].map(k => k * power).find(s => s >= rough) ?? 10 * power
+  const steps = []
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) steps.push(k * step)
+  return steps
+}
+
+export async function mapView(session: Session): Promise<HTMLElement> {
+  const { columns, bins } = session.start.map
+  const canvas = el('canvas', { width: columns, height: bins, role: 'img', 'aria-label': t.canvas })
+  const picture = el('div', { class: 'picture' }, canvas)
+  const x = el('div', { class: 'axis x', 'aria-hidden': 'true' })
+  const y = el('div', { class: 'axis y', 'aria-hidden': 'true' })
+  const field = el('div', { class: 'map-field' }, y, picture, el('div'), x)
+  const legend = legendView()
+  const quantity = el(
+    'select',
+    { class: 'small-select', 'aria-label': text.ring.colour, onchange: () => void session.look({ map: quantity.value as 'difference' | 'speed' }) },
+    el('option', { value: 'difference' }, text.ring.colours.difference),
+    el('option', { value: 'speed' }, text.ring.colours.speed),
+  )
+  const lane = el('select', {
+    class: 'small-select',
+    'aria-label': t.lane,
+    onchange: () => void session.look({ lane: Number(lane.value) }),
+  })
+  const ride = el('input', { type: 'checkbox', id: 'ride', onchange: () => void session.look({ riding: ride.checked }) })
+  const foot = el(
+    'div',
+    { class: 'map-foot' },
+    legend.element,
+    el('label', { for: 'ride', title: t.rideHint }, ride, ` ${t.ride}`),
+    lane,
+    quantity,
+  )
+  const { card: section, note } = card('map', t.title, field, foot)
+
+  // The canvas moves to where the core runs; what it paints appears here.
+  await session.client.ask('canvas', { canvas: canvas.transferControlToOffscreen() })
+
+  let shown = Number.NaN
+  /** Columns that the picture shows. */
+  let visible = columns
+  const axes = () => {
+    const { interval, scenario } = session.snapshot
+    const [start, end] = session.window()
+    const window = end - start
+    if (start + end === shown) return
+    shown = start + end
+    visible = window / interval
+    canvas.style.width = `${(100 * columns) / visible}%`
+    const most = Math.max(3, Math.floor(picture.clientWidth / 85))
+    const times = roundSteps(start, start + window, most).filter(time => time - start < window * 0.93)
+    x.replaceChildren(
+      ...times.map(time => el('span', { style: `left:${(100 * (time - start)) / window}%` }, fixed(time, 1))),
+      el('span', { class: 'name', style: 'left:auto;right:0;transform:none' }, t.time),
+    )
+    const places = roundSteps(0, scenario.length, picture.clientHeight > 200 ? 5 : 3)
+    y.replaceChildren(
+      el('span', { class: 'name' }, session.view.riding ? t.riding : t.position),
+      ...places.map(place => {
+        const up = place / scenario.length
+        return el('span', { style: `top:${Math.min(97, Math.max(3, 100 - 100 * up))}%` }, fixed(place, 0))
+      }),
+    )
+  }
+  const again = () => {
+    shown = Number.NaN
+    axes()
+  }
+  new ResizeObserver(() => session.snapshot && again()).observe(picture)
+
+  const describe = () => {
+    note.textContent = t.note[session.view.map]
+  }
+  let asking = false
+  picture.addEventListener('pointermove', async event => {
+    if (asking) return
+    asking = true
+    const box = picture.getBoundingClientRect()
+    const column = Math.floor(((event.clientX - box.left) / box.width) * visible)
+    const bin = Math.floor((1 - (event.clientY - box.top) / box.height) * bins)
+    const reading = await session.client.ask('probe', { column, bin })
+    asking = false
+    if (reading && Number.isFinite(reading.speed)) {
+      note.textContent = t.reading(reading.time, reading.position, reading.speed, reading.speed - reading.equilibrium)
+    }
+  })
+  picture.addEventListener('pointerleave', describe)
+  session.on('legends', legends => {
+    quantity.value = session.view.map
+    ride.checked = session.view.riding
+    legend.show(legends.map, session.view.map)
+    describe()
+    if (session.snapshot) again()
+  })
+  session.on('snapshot', ({ scenario }) => {
+    lane.hidden = scenario.lanes === 1
+    if (lane.options.length !== scenario.lanes) {
+      lane.replaceChildren(...Array.from({ length: scenario.lanes }, (_, k) => el('option', { value: k }, `${t.lane} ${k + 1}`)))
+    }
+    lane.value = String(session.view.lane)
+    again()
+  })
+  session.on('frame', axes)
+  return section
+}

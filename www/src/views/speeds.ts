@@ -1,0 +1,57 @@
+// Speeds of five cars over time, beside the equilibrium speed.
+import { card, style } from '../dom'
+import type { Session } from '../session'
+import { text } from '../text'
+import { type Line, chart, keys, palette } from './chart'
+
+const t = text.speeds
+const DASHES = [undefined, [10, 3], [4, 3], [12, 3, 3, 3], [2, 2]]
+
+export function speedsView(session: Session): HTMLElement {
+  const plot = chart(t.chart)
+  let names = keys([])
+  const { card: section, note } = card('speeds', t.title, plot.element, names)
+  const dress = () => {
+    const colours = palette(session.view.dark)
+    const lines: Line[] = session.snapshot.watched.map((n, k) => {
+      const dash = DASHES[k]
+      return { label: t.car(n), colour: colours[k]!, ...(dash ? { dash } : {}) }
+    })
+    plot.restyle([...lines, { label: t.equilibrium, colour: style('--ink'), dash: [6, 6], width: 1 }])
+    const next = keys(lines)
+    names.replaceWith(next)
+    names = next
+  }
+  let watched = ''
+  const draw = () => {
+    const { time, speeds } = session.series
+    const { mean_equilibrium_speed: rest } = session.snapshot
+    const top = Math.max(4, 2 * rest, ...speeds.map(s => s.at(-1) ?? 0))
+    highest = Math.max(highest, Math.ceil(top / 2) * 2)
+    plot.show([time, ...speeds, time.map(() => rest)], session.window(), 0, highest)
+  }
+  let highest = 0
+  let epoch = -1
+  session.on('snapshot', snapshot => {
+    note.textContent = t.note(snapshot.mean_equilibrium_speed)
+    if (watched !== String(snapshot.watched)) {
+      watched = String(snapshot.watched)
+      dress()
+    }
+  })
+  session.on('legends', () => session.snapshot && dress())
+  let rows = -1
+  session.on('frame', frame => {
+    if (epoch !== frame.epoch) {
+      epoch = frame.epoch
+      highest = 0
+      rows = -1
+    }
+    // A chart costs more than a frame; it is drawn when there is something new in it.
+    const last = session.series.time.at(-1) ?? -1
+    if (last === rows) return
+    rows = last
+    draw()
+  })
+  return section
+}

@@ -1,0 +1,47 @@
+// The verdict: what theory says of this ring, and what the run has shown so far. During a slider's movement it
+// speaks of what would be.
+import { el } from '../dom'
+import type { Session } from '../session'
+import type { Verdict } from '../shared/protocol'
+import { text } from '../text'
+
+const t = text.verdict
+
+export function verdictView(session: Session): { element: HTMLElement; preview: (v: Verdict | null) => void } {
+  const mark = el('strong')
+  const sentence = el('span', { class: 'sentence' })
+  const measured = el('span', { class: 'measured' })
+  const more = el('button', { type: 'button', hidden: true, onclick: () => void session.extend() }, t.goOn)
+  const element = el('div', { id: 'verdict', class: 'message' }, mark, sentence, measured, more)
+  let preview: Verdict | null = null
+
+  const put = (node: HTMLElement, value: string) => {
+    if (node.textContent !== value) node.textContent = value
+  }
+  const show = () => {
+    const { snapshot, frame } = session
+    const crash = frame?.collision ?? null
+    const v = preview ?? snapshot.verdict
+    const state = v.stable === null ? 'open' : v.stable ? 'stable' : 'unstable'
+    element.dataset.state = state
+    put(mark, `${state === 'unstable' ? '▲' : state === 'stable' ? '●' : '–'} ${t[state]}`)
+    const lane = snapshot.scenario.lanes > 1 ? `${t.lane(v.lane)} ` : ''
+    const theory = `${lane}${t.critical(v)} ${t.wave(v)}`
+    const over = frame?.finished && !crash
+    put(sentence, crash && !preview ? `${t.crash(crash.time, crash.behind + 1, crash.ahead + 1)} ${t.crashAdvice}` : over ? `${theory} ${t.end(frame.time)}` : theory)
+    put(measured, preview || crash || v.stable === null ? '' : frame?.growth ? t.measured(frame.growth, frame.large) : frame?.large ? t.large : t.measuring)
+    more.hidden = !over
+  }
+  session.on('snapshot', () => {
+    preview = null
+    show()
+  })
+  session.on('frame', show)
+  return {
+    element,
+    preview(v) {
+      preview = v
+      show()
+    },
+  }
+}

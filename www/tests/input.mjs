@@ -1,0 +1,95 @@
+// Bad input: a sentence where it was made, and nothing is lost.
+import { mkdtempSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import { join } from 'node:path'
+import { csv, equal, holds, playTo, ready, snapshot, test } from './harness.mjs'
+
+test('a bad link is reported entry by entry and the rest applies', async ({ open }) => {
+  const page = await open('index.html#colour=red&vehicles=30&reaction-time=99&action=at%3D5%3A80%3Abrake%3D1&sensitivity=1.5')
+  await ready(page)
+  const { scenario } = await snapshot(page)
+  equal([scenario.vehicles, scenario.driver.sensitivity, scenario.driver.reaction_time].join(), '30,1.5,0', 'what applies')
+  const items = await page.locator('#trouble li').allTextContents()
+  equal(items.length, 3, `messages ${items}`)
+  for (const [k, word] of ['colour', '99', '80'].entries()) holds(items.some(i => i.includes(word)), `no message about ${word} (${k})`)
+})
+
+test('a hash typed into the address opens another experiment', async ({ open }) => {
+  const page = await open('index.html#vehicles=20')
+  await ready(page)
+  await page.evaluate(() => {
+    location.hash = '#vehicles=25'
+  })
+  await page.waitForFunction(() => window.ringroad.snapshot.scenario.vehicles === 25)
+})
+
+test('a bad file leaves the run as it is; good files open', async ({ open }) => {
+  const page = await open('index.html#vehicles=33')
+  await ready(page)
+  await playTo(page, 10)
+  const step = await page.evaluate(() => window.ringroad.frame.step)
+  const folder = mkdtempSync(join(tmpdir(), 'ringroad-'))
+  await page.click('#open-files')
+  for (const [name, content, words] of [
+    ['broken.json', '{"vehicles": 12', ['JSON']],
+    ['wrong.json', '{"vehicles": 1e9}', ['vehicles', '1000000']],
+    ['photo.json', '\u0000\u0001PNG', ['JSON']],
+    ['other.csv', '# a table of another program\nx,y\n1,2\n', ['CSV header']],
+  ]) {
+    writeFileSync(join(folder, name), content)
+    await page.setInputFiles('#file', join(folder, name))
+    await page.waitForFunction(n => document.querySelector('#file-status').textContent.startsWith(n), name)
+    const text = await page.textContent('#file-status')
+    for (const word of words) holds(text.includes(word), `${name}: ${text}`)
+    equal(await page.evaluate(() => window.ringroad.frame.step), step, 'step reached')
+    equal((await snapshot(page)).scenario.vehicles, 33, 'vehicles')
+  }
+  const table = await csv(page, { table: 'speeds', every: 1 })
+  writeFileSync(join(folder, 'speeds.csv'), table)
+  writeFileSync(join(folder, 'good.json'), '{"version":1,"vehicles":21}')
+  await page.setInputFiles('#file', join(folder, 'good.json'))
+  await page.waitForFunction(() => window.ringroad.snapshot.scenario.vehicles === 21)
+  await page.setInputFiles('#file', join(folder, 'speeds.csv'))
+  await page.waitForFunction(() => window.ringroad.snapshot.scenario.vehicles === 33)
+  await page.keyboard.press('Escape')
+  // The run ends where the file ended.
+  await playTo(page, 1e6)
+  equal(await csv(page, { table: 'speeds', every: 1 }), table, 'the table of the run that the file names')
+})
+
+test('a number out of range gets a sentence and the last good value stays', async ({ open }) => {
+  const page = await open('index.html#reaction-time=0.5')
+  await ready(page)
+  await playTo(page, 5)
+  for (const [field, bad, word] of [
+    ['#p-reaction_time-number', '11', 'from 0 to 10 s'],
+    ['#p-vehicles-number', '2.5', 'whole number'],
+    ['#p-vehicles-number', '', 'whole number'],
+  ]) {
+    await page.fill(field, bad)
+    await page.keyboard.press('Tab')
+    const text = await page.textContent(`${field.replace('-number', '')}-wrong`)
+    holds(text.includes(word), `${field} ${bad}: ${text}`)
+  }
+  // A combination that only the core can refuse.
+  await page.fill('#p-vehicles-number', '300')
+  await page.keyboard.press('Tab')
+  await page.waitForSelector('#trouble:not([hidden])')
+  holds((await page.textContent('#trouble')).includes('300'), 'no message about 300 vehicles')
+  const { scenario, driver } = await snapshot(page)
+  equal([scenario.vehicles, driver.reaction_time].join(), '50,0.5', 'the last good state')
+  holds((await page.evaluate(() => window.ringroad.frame.time)) >= 5, 'the run was lost')
+  equal(page.problems.join(), '', 'errors on the page')
+})
+
+test('a long export can be cancelled, and the page stays alive meanwhile', async ({ open }) => {
+  const page = await open('index.html#vehicles=1000&length=20000')
+  await ready(page)
+  await playTo(page, 30)
+  await page.click('#open-files')
+  await page.fill('#every', '0.01')
+  await page.click('#show-csv')
+  await page.waitForSelector('#files progress:not([hidden])')
+  await page.getByRole('button', { name: 'Cancel' }).click()
+  await page.waitForFunction(() => document.querySelector('#export-status').textContent === 'Cancelled.')
+})

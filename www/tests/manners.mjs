@@ -1,0 +1,175 @@
+// Accessibility, keyboard, and boxes that fit.
+import { readFileSync } from 'node:fs'
+import { fileURLToPath } from 'node:url'
+import { equal, holds, playTo, ready, test } from './harness.mjs'
+
+const axe = readFileSync(fileURLToPath(new URL('../node_modules/axe-core/axe.min.js', import.meta.url)), 'utf8')
+
+async function clean(page, what) {
+  await page.evaluate(axe)
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }))
+  equal(violations.map(v => `${v.id}: ${v.nodes.map(n => n.target).join(' ')}`).join('; '), '', `axe-core on ${what}`)
+}
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe-core finds nothing: the page, its tabs and dialogs, ${colorScheme}`, async ({ open }) => {
+    const page = await open('index.html', { colorScheme })
+    await ready(page)
+    await playTo(page, 20)
+    await page.click('#more-controls')
+    for (const tab of await page.locator('[role=tab]').all()) {
+      await tab.click()
+      await clean(page, await tab.textContent())
+    }
+    for (const dialog of ['share', 'files', 'help']) {
+      await page.click(`#open-${dialog}`)
+      await clean(page, dialog)
+      await page.keyboard.press('Escape')
+    }
+    await page.selectOption('#presets', { index: 1 })
+    await page.waitForSelector('#preset:not([hidden])')
+    await clean(page, 'an experiment')
+    await page.evaluate(() => window.ringroad.set('vehicles', '300'))
+    await page.waitForSelector('#trouble:not([hidden])')
+    await clean(page, 'a refusal')
+  })
+}
+test('axe-core finds nothing: the embedded view and the course page', async ({ open }) => {
+  const embed = await open('embed.html')
+  await ready(embed)
+  await clean(embed, 'embed.html')
+  await clean(await open('course.html'), 'course.html')
+})
+
+test('everything is reached by keyboard', async ({ open }) => {
+  const page = await open('index.html', { reducedMotion: 'reduce' })
+  await ready(page)
+  await page.click('#more-controls')
+  const wanted = await page.evaluate(() =>
+    [...document.querySelectorAll('button, select, input, textarea, a, [tabindex]')]
+      .filter(e => e.checkVisibility({ visibilityProperty: true }) && !e.closest('dialog') && !e.disabled && e.tabIndex >= 0)
+      .map((e, k) => {
+        e.dataset.stop = k
+        return e.outerHTML.slice(0, 90)
+      }),
+  )
+  const reached = new Set()
+  await page.evaluate(() => document.activeElement?.blur())
+  for (let k = 0; k < wanted.length + 5; k++) {
+    await page.keyboard.press('Tab')
+    const stop = await page.evaluate(() => document.activeElement?.dataset?.stop)
+    if (stop !== undefined) reached.add(Number(stop))
+  }
+  const missed = wanted.filter((_, k) => !reached.has(k))
+  equal(missed.join('\n'), '', 'never focused')
+  holds(wanted.length > 25, `${wanted.length} stops only`)
+})
+
+test('keys play, step, nudge, brake and help; sliders speak with units', async ({ open }) => {
+  const page = await open('index.html', { reducedMotion: 'reduce' })
+  await ready(page)
+  await page.evaluate(() => document.activeElement?.blur())
+  equal(await page.evaluate(() => window.ringroad.playing), false, 'playing although less motion is asked for')
+  await page.keyboard.press('.')
+  await page.waitForFunction(() => window.ringroad.frame.step === 1)
+  await page.keyboard.press('Space')
+  await page.waitForFunction(() => window.ringroad.playing && window.ringroad.frame.step > 5)
+  await page.keyboard.press('Space')
+  equal(await page.evaluate(() => window.ringroad.playing), false, 'playing after the second space')
+  await page.keyboard.press('b')
+  await page.keyboard.press('n')
+  await page.waitForFunction(() => window.ringroad.snapshot.scenario.actions.length === 3)
+  await page.keyboard.press('?')
+  await page.waitForSelector('#help[open]')
+  await page.keyboard.press('Escape')
+  equal(await page.getAttribute('#p-reaction_time', 'aria-valuetext'), '0.75 seconds', 'value of the slider')
+  await page.focus('#ring-canvas')
+  await page.keyboard.press('ArrowRight')
+  equal(await page.evaluate(() => window.ringroad.watched), 1, 'watched car')
+})
+
+test('a hidden page stops and goes on where it was', async ({ open }) => {
+  const page = await open('index.html')
+  await ready(page)
+  await page.evaluate(() => Object.defineProperty(document, 'hidden', { configurable: true, get: () => true }))
+  await page.waitForTimeout(200)
+  const step = await page.evaluate(() => window.ringroad.frame.step)
+  await page.waitForTimeout(500)
+  equal(await page.evaluate(() => window.ringroad.frame.step), step, 'steps while hidden')
+  await page.evaluate(() => Object.defineProperty(document, 'hidden', { configurable: true, get: () => false }))
+  await page.waitForFunction(s => window.ringroad.frame.step > s, step)
+  holds((await page.evaluate(() => window.ringroad.frame.step)) < step + 500, 'time that nobody saw was made up for')
+})
+
+test('a machine that cannot keep up says so', async ({ open }) => {
+  const page = await open('index.html#vehicles=60000&length=1200000')
+  await ready(page)
+  await page.evaluate(() => {
+    window.ringroad.setPlayback(100)
+    window.ringroad.play()
+  })
+  await page.waitForFunction(() => document.querySelector('.transport .message').textContent.includes('manages'), null, { timeout: 20_000 })
+})
+
+/** Everything that a person sees lies inside the page, is not cut, and covers nothing else. */
+const boxes = () => {
+  const faults = []
+  const seen = e => e.checkVisibility({ visibilityProperty: true }) && !e.closest('.hidden, dialog:not([open])')
+  const name = e => `${e.tagName.toLowerCase()}${e.id ? `#${e.id}` : ''} “${(e.textContent ?? '').trim().slice(0, 24)}”`
+  const width = document.documentElement.clientWidth
+  if (document.documentElement.scrollWidth > width) faults.push(`the page is ${document.documentElement.scrollWidth} wide`)
+  for (const e of document.querySelectorAll('body *')) {
+    if (!seen(e) || e.closest('.u-wrap, .picture, svg, [data-view=embed] .top')) continue
+    const box = e.getBoundingClientRect()
+    if (box.width === 0 || box.height === 0) continue
+    if (box.right > width + 0.5 || box.left < -0.5) faults.push(`${name(e)} leaves the page: ${box.left}…${box.right}`)
+    if (e.children.length === 0 && e.textContent.trim() !== '' && (e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 3) && getComputedStyle(e).display !== 'inline') {
+      faults.push(`${name(e)} is cut: ${e.scrollWidth}×${e.scrollHeight} in ${e.clientWidth}×${e.clientHeight}`)
+    }
+  }
+  // Cards and controls do not overlap; neither do the numbers of an axis or a colour bar.
+  const apart = list => {
+    for (let i = 0; i < list.length; i++) {
+      for (let k = i + 1; k < list.length; k++) {
+        const [a, b] = [list[i].getBoundingClientRect(), list[k].getBoundingClientRect()]
+        const over = Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1
+        if (over) faults.push(`${name(list[i])} covers ${name(list[k])}`)
+      }
+    }
+  }
+  apart([...document.querySelectorAll('.card, #verdict, [data-view=lab] .top')].filter(seen))
+  apart([...document.querySelectorAll('button, select, input, .time, label')].filter(e => seen(e) && !e.closest('label *') && !e.querySelector('input')))
+  for (const axis of document.querySelectorAll('.axis, .ticks')) apart([...axis.children].filter(seen))
+  return faults
+}
+
+for (const [width, height, address] of [
+  [1280, 800, 'index.html'],
+  [1440, 900, 'index.html'],
+  [1024, 700, 'index.html'],
+  [390, 844, 'index.html'],
+  [360, 640, 'index.html'],
+  [768, 480, 'embed.html'],
+  [390, 700, 'embed.html'],
+]) {
+  test(`boxes fit: ${address} at ${width} × ${height}`, async ({ open }) => {
+    const page = await open(address, { viewport: { width, height } })
+    await ready(page)
+    for (const lanes of [1, 3]) {
+      if (lanes > 1) await page.evaluate(() => window.ringroad.preset('three-lanes'))
+      await playTo(page, 30)
+      equal((await page.evaluate(boxes)).join('\n        '), '', `boxes with ${lanes} lanes`)
+    }
+    if (address === 'index.html' && width === 1280) {
+      const tall = await page.evaluate(() => document.documentElement.scrollHeight)
+      holds(tall <= height, `the page is ${tall} px tall: something main lies below the fold`)
+    }
+    if (address === 'index.html') {
+      await page.click('#more-controls')
+      for (const tab of await page.locator('[role=tab]').all()) {
+        await tab.click()
+        equal((await page.evaluate(boxes)).join('\n        '), '', `boxes with ${await tab.textContent()}`)
+      }
+    }
+  })
+}

@@ -1,0 +1,8 @@
+// Runs the browser tests: `npm run test:browser [-- part of a name]`.
+import { runAll } from './harness.mjs'
+
+await import('./places.mjs')
+await import('./traffic.mjs')
+await import('./input.mjs')
+await import('./manners.mjs')
+await runAll(process.argv[2])

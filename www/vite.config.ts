@@ -1,0 +1,34 @@
+import { fileURLToPath } from 'node:url'
+import { defineConfig, type Plugin } from 'vite'
+import { viteSingleFile } from 'vite-plugin-singlefile'
+
+const at = (path: string) => fileURLToPath(new URL(path, import.meta.url))
+
+const rename: Plugin = {
+  name: 'one-file-name',
+  enforce: 'post',
+  generateBundle(_options, bundle) {
+    bundle['index.html']!.fileName = 'ringroad.html'
+  },
+}
+
+// `vite build` writes the site, `vite build --mode one-file` the page with everything inside.
+export default defineConfig(({ mode }) => {
+  const one = mode === 'one-file'
+  return {
+    base: './',
+    resolve: one ? { alias: [{ find: '../place', replacement: at('src/place.inline.ts') }] } : {},
+    plugins: one ? [viteSingleFile({ removeViteModuleLoader: true }), rename] : [],
+    build: {
+      target: 'es2022',
+      outDir: '../dist',
+      emptyOutDir: !one,
+      modulePreload: false,
+      reportCompressedSize: false,
+      rollupOptions: {
+        input: one ? at('index.html') : [at('index.html'), at('embed.html'), at('course.html')],
+      },
+    },
+    test: { include: ['unit/**/*.test.ts'] },
+  }
+})
