@@ -18,10 +18,6 @@
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
-//! | [`preset`] | scenarios with names |
-//! | [`measurement`] | what to measure, plain data |
-//! | [`probe`] | one file a measurement |
-//! | [`fit`] | straight lines and exponentials through points |
 //! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 //! | [`simulation`] | the state and its step |
 //! | [`following`] | perceived headways to speeds, all vehicles at once |
@@ -33,21 +29,17 @@
 //! | [`probe`] | one file a measurement |
 //! | [`fit`] | straight lines and exponentials through points |
 //! | [`table`] | columns, units, CSV |
-//! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
-//! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
-//! | [`plot`], [`colour`] | tables to pictures |
-
-pub mod action;
-pub mod batch;
-pub mod claim;
 //! | [`batch`] | grids and Monte Carlo over scenarios: plan, runs, summary |
-//! | [`colour`] | tables to pictures |
+//! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
+//! | [`plot`] | tables to pictures |
+//! | [`colour`] | colours of speeds and frustration |
 //! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 //! | `web` | the façade for the page, on WebAssembly only |
 //! | `main.rs`, `command/` | the command, native only |
 
 pub mod action;
 pub mod batch;
+pub mod claim;
 pub mod colour;
 pub mod driver;
 pub mod error;
