@@ -8,9 +8,13 @@ use crate::driver::{Driver, Equilibrium, equilibrium};
 use crate::error::Invalid;
 use crate::link;
 use crate::parameters::Parameter;
+use crate::probe::Probe;
+use crate::probe::growth::{Growth as Modal, Linear};
 use crate::scenario::{Scenario, assign};
 use crate::simulation::Simulation;
-use crate::verdict::{Verdict, verdict};
+use crate::stability::report::{Lane, Roots, roots_of_lane};
+use crate::table::Table;
+use crate::verdict::{self, Verdict, verdict};
 use std::collections::VecDeque;
 
 /// Seconds between two columns of the map, rounded to whole steps.
@@ -27,6 +31,11 @@ const GROWTH_WINDOW: f64 = 60.0;
 const ROUNDING: f64 = 1e-9;
 /// A wave is small while no headway differs from rest by more than this part of the gap to the minimum headway.
 const SMALL: f64 = 0.2;
+
+/// Rows for which the growth of all modes is followed after a disturbance.
+const MODAL_ROWS: usize = 2400;
+/// What counts as linear there, as in the table of growth.
+const LINEAR: Linear = Linear { smallest: 1e-8, nonlinearity: 0.01 };
 
 /// What the page opens with: fifty vehicles beyond the critical reaction time, one of them nudged.
 pub fn opening() -> Scenario {
@@ -86,6 +95,8 @@ pub struct Live {
     amplitudes: VecDeque<(f64, f64)>,
     /// Whether waves are too large for linear theory now.
     large: bool,
+    /// Growth of every mode since the last change.
+    modal: Modal,
 }
 
 impl Live {
@@ -109,6 +120,7 @@ impl Live {
             crossings: VecDeque::new(),
             amplitudes: VecDeque::new(),
             large: false,
+            modal: Modal::new(1, 0, 0, 0, LINEAR),
             simulation,
         };
         live.plan();
@@ -214,8 +226,7 @@ impl Live {
         let scenario = self.simulation.scenario();
         let drivers: Vec<Driver> = (0..scenario.vehicles).map(|j| *self.simulation.driver(j)).collect();
         self.balance = self.simulation.vehicles_per_lane().to_vec();
-        let lanes: Vec<Vec<Driver>> =
-            self.lanes().iter().map(|lane| lane.iter().map(|&j| drivers[j]).collect()).collect();
+        let lanes = self.lanes_of_drivers();
         // Spread evenly, every lane holds its share of the headways.
         if let Some(e) = equilibrium(&drivers, scenario.length * scenario.lanes as f64) {
             self.equilibrium = e;
@@ -223,6 +234,32 @@ impl Live {
         self.verdict = verdict(&lanes, scenario.length, scenario.time_step);
         self.changes += 1;
         self.amplitudes.clear();
+        // What the change has excited beside the leading roots is given time to die away.
+        let longest = drivers.iter().map(|d| d.reaction_time).fold(0.0, f64::max);
+        let from = step + scenario.steps(20.0 * longest);
+        let lane = self.verdict.lane - 1;
+        let modes = (2 * self.verdict.mode.unwrap_or(1)).clamp(10, 40).min(self.balance[lane] / 2);
+        self.modal = Modal::new(self.every, modes, lane, from, LINEAR);
+    }
+
+    /// The lanes as theory sees them.
+    fn lanes_of_drivers(&self) -> Vec<Lane> {
+        let dt = self.simulation.scenario().time_step;
+        let driver = |&j: &usize| *self.simulation.driver(j);
+        self.lanes().iter().map(|lane| verdict::lane(lane.iter().map(driver).collect(), dt)).collect()
+    }
+
+    /// The characteristic roots of the lane that the verdict speaks of: of some `most` modes, each with so many
+    /// `others` beside the dominant one.
+    pub fn roots(&self, others: usize, most: usize) -> Roots {
+        let lane = self.lanes_of_drivers().swap_remove(self.verdict.lane - 1);
+        let scenario = self.simulation.scenario();
+        roots_of_lane(&lane, scenario.length, scenario.time_step, others, most)
+    }
+
+    /// Growth of the modes of that lane since the last change, a row for each: the table `growth`.
+    pub fn modal_growth(&self) -> Table {
+        self.modal.table()
     }
 
     /// The vehicles of each lane in the order of the road, from the lowest number on.
@@ -249,6 +286,9 @@ impl Live {
         self.record_column(&lanes);
         self.record_row();
         self.record_amplitude(&lanes);
+        if self.modal.rows() < MODAL_ROWS {
+            self.modal.observe(&self.simulation);
+        }
     }
 
     fn record_column(&mut self, lanes: &[Vec<usize>]) {
@@ -446,10 +486,19 @@ impl Live {
             };
         for count in balance {
             let (lane, others) = rest.split_at(count);
-            lanes.push(lane.to_vec());
+            lanes.push(verdict::lane(lane.to_vec(), scenario.time_step));
             rest = others;
         }
         Ok(verdict(&lanes, scenario.length, scenario.time_step))
+    }
+
+    /// What theory would say with so many vehicles at that reaction time, both as typed.
+    pub fn preview_point(&self, vehicles: &str, reaction_time: &str) -> Result<Verdict, Invalid> {
+        let scenario = self.simulation.scenario();
+        if vehicles.parse() == Ok(scenario.vehicles) {
+            return self.preview("reaction_time", reaction_time);
+        }
+        Self::new(&self.with("vehicles", vehicles)?)?.preview("reaction_time", reaction_time)
     }
 
     /// The same scenario from its beginning, with all its actions, or with those at t = 0 only.
