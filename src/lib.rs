@@ -29,10 +29,12 @@
 //! | [`vector`] | vectors as wide as the machine has them |
 //! | [`ring`] | who is ahead, who passed |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
+//! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
 //! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 //! | [`table`] | columns, units, CSV |
 
 pub mod action;
+pub mod batch;
 pub mod colour;
 pub mod driver;
 pub mod error;

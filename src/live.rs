@@ -12,7 +12,7 @@ use crate::probe::Probe;
 use crate::probe::growth::{Growth as Modal, Linear};
 use crate::scenario::{Scenario, assign};
 use crate::simulation::Simulation;
-use crate::stability::report::{Lane, Roots, roots_of_lane};
+use crate::stability::report::{Roots, roots_of_lane};
 use crate::table::Table;
 use crate::verdict::{self, Verdict, verdict};
 use std::collections::VecDeque;
@@ -32,7 +32,7 @@ const ROUNDING: f64 = 1e-9;
 /// A wave is small while no headway differs from rest by more than this part of the gap to the minimum headway.
 const SMALL: f64 = 0.2;
 
-/// Rows for which the growth of all modes is followed after a disturbance.
+/// Rows for which the growth of all modes is followed after a change.
 const MODAL_ROWS: usize = 2400;
 /// What counts as linear there, as in the table of growth.
 const LINEAR: Linear = Linear { smallest: 1e-8, nonlinearity: 0.01 };
@@ -85,6 +85,8 @@ pub struct Live {
     balance: Vec<usize>,
     equilibrium: Equilibrium,
     verdict: Verdict,
+    /// Lanes have changed since theory was asked: with several lanes it is asked only when somebody wants to know.
+    stale: bool,
     /// Columns made so far; the last [`COLUMNS`] are kept.
     made: u64,
     columns: VecDeque<Column>,
@@ -95,8 +97,10 @@ pub struct Live {
     amplitudes: VecDeque<(f64, f64)>,
     /// Whether waves are too large for linear theory now.
     large: bool,
-    /// Growth of every mode since the last change.
-    modal: Modal,
+    /// Growth of every mode of the verdict's lane since the last change; none until theory was asked.
+    modal: Option<Modal>,
+    /// The step from which on it is looked at.
+    modal_from: u64,
 }
 
 impl Live {
@@ -114,13 +118,15 @@ impl Live {
             balance: Vec::new(),
             equilibrium: Equilibrium { speed: 0.0, density: 0.0, flow: 0.0 },
             verdict: Verdict::default(),
+            stale: true,
             made: 0,
             columns: VecDeque::new(),
             rows: Vec::new(),
             crossings: VecDeque::new(),
             amplitudes: VecDeque::new(),
             large: false,
-            modal: Modal::new(1, 0, 0, 0, LINEAR),
+            modal: None,
+            modal_from: 0,
             simulation,
         };
         live.plan();
@@ -134,7 +140,14 @@ impl Live {
         &self.simulation
     }
     /// What theory says now.
-    pub fn verdict(&self) -> &Verdict {
+    pub fn verdict(&mut self) -> &Verdict {
+        if std::mem::take(&mut self.stale) {
+            let scenario = self.simulation.scenario();
+            let lanes: Vec<Vec<Driver>> = (self.lanes().iter())
+                .map(|lane| lane.iter().map(|&j| *self.simulation.driver(j)).collect())
+                .collect();
+            self.verdict = verdict(&lanes, scenario.length, scenario.time_step);
+        }
         &self.verdict
     }
     /// The equilibrium with the vehicles spread evenly over all lanes; the density is that of a lane.
@@ -226,40 +239,52 @@ impl Live {
         let scenario = self.simulation.scenario();
         let drivers: Vec<Driver> = (0..scenario.vehicles).map(|j| *self.simulation.driver(j)).collect();
         self.balance = self.simulation.vehicles_per_lane().to_vec();
-        let lanes = self.lanes_of_drivers();
         // Spread evenly, every lane holds its share of the headways.
         if let Some(e) = equilibrium(&drivers, scenario.length * scenario.lanes as f64) {
             self.equilibrium = e;
         }
-        self.verdict = verdict(&lanes, scenario.length, scenario.time_step);
+        self.stale = true;
         self.changes += 1;
         self.amplitudes.clear();
+        self.modal = None;
         // What the change has excited beside the leading roots is given time to die away.
         let longest = drivers.iter().map(|d| d.reaction_time).fold(0.0, f64::max);
-        let from = step + scenario.steps(20.0 * longest);
-        let lane = self.verdict.lane - 1;
-        let modes = (2 * self.verdict.mode.unwrap_or(1)).clamp(10, 40).min(self.balance[lane] / 2);
-        self.modal = Modal::new(self.every, modes, lane, from, LINEAR);
+        self.modal_from = step + scenario.steps(20.0 * longest);
     }
 
-    /// The lanes as theory sees them.
-    fn lanes_of_drivers(&self) -> Vec<Lane> {
-        let dt = self.simulation.scenario().time_step;
-        let driver = |&j: &usize| *self.simulation.driver(j);
-        self.lanes().iter().map(|lane| verdict::lane(lane.iter().map(driver).collect(), dt)).collect()
+    /// Looks at all modes, beyond the fastest by as far again.
+    fn record_modes(&mut self) {
+        if self.stale {
+            return;
+        }
+        let Verdict { lane, mode, .. } = self.verdict;
+        let most = self.simulation.vehicles_per_lane()[lane - 1] / 2;
+        let modes = (2 * mode.unwrap_or(1)).clamp(10, 40).min(most);
+        let (every, from) = (self.every, self.modal_from);
+        let modal = self.modal.get_or_insert_with(|| Modal::new(every, modes, lane - 1, from, LINEAR));
+        if modal.rows() < MODAL_ROWS {
+            modal.observe(&self.simulation);
+        }
     }
 
     /// The characteristic roots of the lane that the verdict speaks of: of some `most` modes, each with so many
     /// `others` beside the dominant one.
-    pub fn roots(&self, others: usize, most: usize) -> Roots {
-        let lane = self.lanes_of_drivers().swap_remove(self.verdict.lane - 1);
+    pub fn roots(&mut self, others: usize, most: usize) -> Roots {
+        let place = self.verdict().lane - 1;
+        let drivers = self.lanes()[place].iter().map(|&j| *self.simulation.driver(j)).collect();
         let scenario = self.simulation.scenario();
+        let lane = verdict::lane(drivers, scenario.time_step);
         roots_of_lane(&lane, scenario.length, scenario.time_step, others, most)
     }
 
     /// Growth of the modes of that lane since the last change, a row for each: the table `growth`.
-    pub fn modal_growth(&self) -> Table {
-        self.modal.table()
+    pub fn modal_growth(&self) -> Option<Table> {
+        self.modal.as_ref().map(Probe::table)
+    }
+
+    /// From when on that growth is looked at, s.
+    pub fn modal_from(&self) -> f64 {
+        self.modal_from as f64 * self.simulation.scenario().time_step
     }
 
     /// The vehicles of each lane in the order of the road, from the lowest number on.
@@ -286,9 +311,7 @@ impl Live {
         self.record_column(&lanes);
         self.record_row();
         self.record_amplitude(&lanes);
-        if self.modal.rows() < MODAL_ROWS {
-            self.modal.observe(&self.simulation);
-        }
+        self.record_modes();
     }
 
     fn record_column(&mut self, lanes: &[Vec<usize>]) {
@@ -345,16 +368,23 @@ impl Live {
     }
 
     fn record_amplitude(&mut self, lanes: &[Vec<usize>]) {
+        if lanes.len() == 1 {
+            self.verdict();
+        }
+        if self.stale {
+            return;
+        }
         let (Some(mode), Some(lane)) = (self.verdict.mode, lanes.get(self.verdict.lane - 1)) else { return };
         let s = &self.simulation;
         let angle = -std::f64::consts::TAU * mode as f64 / lane.len() as f64;
         let (cos, sin) = (libm::cos(angle), libm::sin(angle));
         let (mut turn, mut sum) = ((1.0, 0.0), (0.0, 0.0));
-        let mut small = true;
+        // The largest deviation as a part of the gap to the minimum headway.
+        let mut largest = 0.0_f64;
         for &j in lane {
             let rest = s.driver(j).headway(self.verdict.equilibrium.speed);
             let deviation = s.headway(j) - rest;
-            small &= deviation.abs() <= SMALL * (rest - s.driver(j).min_headway);
+            largest = largest.max(deviation.abs() / (rest - s.driver(j).min_headway));
             sum = (sum.0 + deviation * turn.0, sum.1 + deviation * turn.1);
             turn = (turn.0 * cos - turn.1 * sin, turn.0 * sin + turn.1 * cos);
         }
@@ -364,10 +394,11 @@ impl Live {
             return;
         }
         // What was measured before the waves became large stays; it begins anew when they are small again.
-        if self.large && small {
+        if self.large && largest < SMALL / 4.0 {
+            self.large = false;
             self.amplitudes.clear();
         }
-        self.large = !small;
+        self.large |= largest > SMALL;
         if self.large {
             return;
         }
@@ -457,19 +488,21 @@ impl Live {
 
     /// Sets a parameter. A driver's holds for all drivers from now on; any other, and every one at t = 0 or after
     /// a collision, starts the run again with what was set.
-    pub fn set(&mut self, name: &str, text: &str) -> Result<(), Invalid> {
+    /// Returns whether it started again.
+    pub fn set(&mut self, name: &str, text: &str) -> Result<bool, Invalid> {
         let running = self.simulation.step_index() > 0 && self.simulation.collision().is_none();
         if name == "until" {
             let parameter = named(name)?;
-            return self.set_until(parameter.parse(text)?);
+            return self.set_until(parameter.parse(text)?).map(|()| false);
         }
         if running && name != "start" && named(name)?.is_of_driver() {
             let parameter = named(name)?;
             let value = parameter.parse(text)?;
-            return self.act(Action { at: 0.0, who: Who::All, effects: vec![Effect::Set(parameter, value)] });
+            let action = Action { at: 0.0, who: Who::All, effects: vec![Effect::Set(parameter, value)] };
+            return self.act(action).map(|()| false);
         }
         *self = Self::new(&self.with(name, text)?)?;
-        Ok(())
+        Ok(true)
     }
 
     /// What theory would say after [`Self::set`].
@@ -486,7 +519,7 @@ impl Live {
             };
         for count in balance {
             let (lane, others) = rest.split_at(count);
-            lanes.push(verdict::lane(lane.to_vec(), scenario.time_step));
+            lanes.push(lane.to_vec());
             rest = others;
         }
         Ok(verdict(&lanes, scenario.length, scenario.time_step))
@@ -494,8 +527,7 @@ impl Live {
 
     /// What theory would say with so many vehicles at that reaction time, both as typed.
     pub fn preview_point(&self, vehicles: &str, reaction_time: &str) -> Result<Verdict, Invalid> {
-        let scenario = self.simulation.scenario();
-        if vehicles.parse() == Ok(scenario.vehicles) {
+        if vehicles.parse() == Ok(self.simulation.vehicles()) {
             return self.preview("reaction_time", reaction_time);
         }
         Self::new(&self.with("vehicles", vehicles)?)?.preview("reaction_time", reaction_time)

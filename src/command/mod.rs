@@ -3,6 +3,7 @@
 //! Exit status: 0 for a result (a collision is one), 1 where a replay differs, 2 where there is no result: bad
 //! usage or a file that cannot be read or written, with a message on the standard error stream.
 
+mod batch;
 mod options;
 mod output;
 mod parameters;
@@ -28,8 +29,14 @@ pub(crate) struct Subcommand {
 }
 
 /// Every subcommand, in the order in which the help shows them.
-const SUBCOMMANDS: [Subcommand; 5] =
-    [run::SUBCOMMAND, stability::SUBCOMMAND, presets::SUBCOMMAND, parameters::SUBCOMMAND, replay::SUBCOMMAND];
+const SUBCOMMANDS: &[Subcommand] = &[
+    run::SUBCOMMAND,
+    batch::SUBCOMMAND,
+    stability::SUBCOMMAND,
+    presets::SUBCOMMAND,
+    parameters::SUBCOMMAND,
+    replay::SUBCOMMAND,
+];
 
 /// Why there is no result.
 #[derive(Debug)]
@@ -80,7 +87,7 @@ pub(crate) fn main() -> ExitCode {
         .after_help("Example: ringroad run --preset phantom-jam --every 1 --out jam.csv")
         .arg_required_else_help(true)
         .subcommand_required(true);
-    for subcommand in &SUBCOMMANDS {
+    for subcommand in SUBCOMMANDS {
         command = command.subcommand((subcommand.define)());
     }
     let matches = command.get_matches();

@@ -72,6 +72,11 @@ impl Growth {
         }
     }
 
+    /// The step from which on states are looked at.
+    pub fn from(&self) -> u64 {
+        self.from
+    }
+
     /// Rows held so far.
     pub fn rows(&self) -> usize {
         self.times.len()

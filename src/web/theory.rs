@@ -2,7 +2,7 @@
 
 use super::{Lab, refusal, verdict};
 use crate::stability::plane::{curves, numbers};
-use serde_json::{Value, json};
+use serde_json::json;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::*;
 
@@ -20,13 +20,16 @@ impl Lab {
     }
 
     /// The characteristic roots of the lane that the verdict speaks of, as JSON.
-    pub fn roots(&self) -> String {
+    pub fn roots(&mut self) -> String {
         serde_json::to_string(&self.live.roots(1, MODES)).unwrap_or_default()
     }
 
     /// Growth of each of its modes since the last change, measured and predicted, as JSON.
     pub fn modal_growth(&self) -> String {
-        let table = self.live.modal_growth();
+        let starts = self.live.modal_from();
+        let Some(table) = self.live.modal_growth() else {
+            return json!({ "starts": starts, "modes": [] }).to_string();
+        };
         let column = |name: &str| table.floats(name).unwrap_or_default();
         let (rate, error) = (column("growth_rate_per_s"), column("standard_error_per_s"));
         let (predicted, from, to) = (column("predicted_per_s"), column("from_s"), column("to_s"));
@@ -42,7 +45,8 @@ impl Lab {
                 "ended_by": ended_by[k],
             })
         };
-        Value::from((0..table.rows()).map(one).collect::<Vec<_>>()).to_string()
+        let modes: Vec<_> = (0..table.rows()).map(one).collect();
+        json!({ "starts": starts, "modes": modes }).to_string()
     }
 
     /// What theory would say with so many vehicles at that reaction time, as JSON.

@@ -107,6 +107,12 @@ export interface ModeGrowth {
   readonly ended_by: string
 }
 
+export interface ModesGrowth {
+  /** From when on it is looked at, s. */
+  readonly starts: number
+  readonly modes: readonly ModeGrowth[]
+}
+
 /** What changes by actions and settings only. */
 export interface Snapshot {
   /** With all actions made so far. */
@@ -235,7 +241,7 @@ export interface Requests {
   previewPoint: { ask: { vehicles: number; reactionTime: number }; answer: Verdict }
   plane: { ask: Record<string, never>; answer: Curves }
   roots: { ask: Record<string, never>; answer: Roots }
-  modes: { ask: Record<string, never>; answer: readonly ModeGrowth[] }
+  modes: { ask: Record<string, never>; answer: ModesGrowth }
   /** Goes to a time, by replaying from the start. */
   seek: { ask: { time: number }; answer: Snapshot }
   /** Takes one action out of the list and replays. */

@@ -329,6 +329,7 @@ export const en = {
     left: (to: number): string => `Left the linear regime at t = ${unit(fixed(to, 1), 's')}.`,
     disturbed: (to: number): string => `Disturbed at t = ${unit(fixed(to, 1), 's')}.`,
     faded: (to: number): string => `Faded into rounding at t = ${unit(fixed(to, 1), 's')}.`,
+    large: 'Waves are too large now for linear theory.',
     differ: 'Drivers differ: the modes mix, and theory knows the ring as a whole.',
     one: (mode: number, rate: number, predicted: number | null): string =>
       `mode ${mode}: ${exactly(rate, 4)}${predicted === null ? '' : ` against ${exactly(predicted, 4)}`}`,
