@@ -4,6 +4,8 @@ import { exactly, fixed, span, unit } from '../format'
 import type { Growth, Verdict } from '../shared/protocol'
 
 const seconds = (s: number) => unit(fixed(s, 3), 's')
+/** A critical reaction time; none where every one is stable. */
+const tau = (s: number | null) => (s === null ? '–' : unit(exactly(s, 3), 's'))
 const jams = (n: number) => (n === 1 ? '1 jam' : `${n} jams`)
 const pace = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
 
@@ -286,7 +288,6 @@ export const en = {
     title: 'Where waves grow',
     stable: 'stable',
     unstable: 'unstable',
-    newell: 'Newell’s limit',
     vehicles: 'vehicles N',
     reaction: 'reaction time Δ (s)',
     handle: 'Vehicles and reaction time',
@@ -294,11 +295,13 @@ export const en = {
     hint: 'Drag the point, or use its arrow keys: ← → vehicles, ↑ ↓ reaction time. A new N starts again.',
     value: (n: number, delta: number, state: string): string =>
       `${n} vehicles, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
-    continuous: 'τ(N), continuous time',
-    discrete: (dt: string): string => `τ(N) in steps of ${dt} s`,
-    describe: (n: number, critical: string, newell: string): string =>
-      `The plane of vehicles and reaction time. With ${n} vehicles the curve stands at ${critical}, Newell’s limit at ${newell}; above the curve waves grow.`,
-    every: 'no reaction time at all',
+    drag: 'drag the point',
+    /** A curve and its value at the point's N. */
+    discrete: (dt: string, s: number | null): string => `τ in steps of ${dt} s: ${tau(s)}`,
+    continuous: (s: number | null): string => `τ, continuous time: ${tau(s)}`,
+    newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
+    describe: (n: number, discrete: number | null, continuous: number | null, newell: number | null): string =>
+      `The plane of vehicles and reaction time. With ${n} vehicles the curve stands at ${tau(discrete)}, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`,
     common: 'The curves are those of the drivers without an exception.',
   },
 
@@ -309,8 +312,8 @@ export const en = {
     imaginary: 'Im s (1/s)',
     dominant: 'leading root of each mode',
     next: 'next roots',
-    fades: '← fades',
-    grows: 'grows →',
+    fades: 'fades',
+    grows: 'grows',
     describe: (right: readonly number[], count: number, fastest: string): string =>
       `${right.length === 0 ? `All ${count} modes lie left of the imaginary axis: they fade.` : `Right of the imaginary axis, growing: ${right.length === 1 ? 'mode' : 'modes'} ${right.join(', ')} of ${count}.`} ${fastest}`,
     largest: (mode: number, rate: number): string => `Mode ${mode} has the largest growth rate, ${unit(exactly(rate, 4), '1/s')}.`,
@@ -319,7 +322,7 @@ export const en = {
 
   modes: {
     title: 'Growth, measured',
-    axis: 'mode q (waves on the ring)',
+    axis: 'mode q',
     rate: 'growth (1/s)',
     predicted: 'theory',
     measured: 'measured',

@@ -57,7 +57,7 @@ export function axes(c: CanvasRenderingContext2D, f: Frame, x: readonly Tick[], 
   c.textBaseline = 'bottom'
   c.fillText(names.x, f.right, f.bottom + 35)
   c.textAlign = 'left'
-  c.fillText(names.y, 0, f.top - 3)
+  c.fillText(names.y, 0, f.top - 8)
 }
 
 /** A word with a halo of the card's colour, so that lines behind it do not touch it. */
@@ -70,4 +70,4 @@ export function word(c: CanvasRenderingContext2D, label: string, x: number, y: n
   c.fillText(label, x, y)
 }
 
-export const frame = (w: number, h: number, left: number): Frame => ({ left, top: 20, right: w - 8, bottom: h - 36 })
+export const frame = (w: number, h: number, left: number): Frame => ({ left, top: 25, right: w - 8, bottom: h - 36 })

@@ -94,7 +94,7 @@ export function modesView() {
     c.font = '12.5px system-ui, "DejaVu Sans", sans-serif'
     c.textAlign = 'right'
     c.textBaseline = 'middle'
-    if (y(0) - f.top > 16) word(c, text.roots.grows.replace(' →', ''), f.right - 5, f.top + 10, style('--bad'))
+    if (y(0) - f.top > 16) word(c, text.roots.grows, f.right - 5, f.top + 10, style('--bad'))
   })
   return {
     element,

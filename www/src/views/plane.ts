@@ -1,7 +1,6 @@
 // The plane of vehicles N and reaction time Δ with the critical curves. The point where the ring stands can be
 // dragged, or moved with the arrow keys; letting go sets N and Δ as the sliders do.
 import { drawing, el, style } from '../dom'
-import { exactly, unit } from '../format'
 import type { Session } from '../session'
 import type { Curves, Verdict } from '../shared/protocol'
 import { text } from '../text'
@@ -50,6 +49,7 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
   /** Where the point is held, before it is let go. */
   let draft: Point | null = null
   let state = ''
+  let described = ''
 
   const now = (): Point => ({
     vehicles: session.snapshot.scenario.vehicles,
@@ -104,10 +104,11 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     c.beginPath()
     c.rect(f.left, f.top, f.right - f.left, f.bottom - f.top)
     c.clip()
+    // Often within a pixel of each other: the wider lie below, so that each can be seen.
     for (const [values, colour, dash, width] of [
-      [curves.newell_s, style('--soft'), [2, 4], 2],
-      [curves.continuous_s, style('--accent'), [7, 4], 2],
-      [curves.discrete_s, style('--ink'), [], 1.75],
+      [curves.newell_s, style('--soft'), [2, 4], 7],
+      [curves.continuous_s, style('--accent'), [7, 4], 4],
+      [curves.discrete_s, style('--ink'), [], 1.5],
     ] as const) {
       c.beginPath()
       path(values)
@@ -128,6 +129,10 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     c.lineTo(x(vehicles), f.bottom)
     c.stroke()
     c.restore()
+    c.textAlign = 'left'
+    c.textBaseline = 'bottom'
+    c.fillStyle = style('--soft')
+    c.fillText(t.drag, 0, f.bottom + 35)
     c.font = '600 13px system-ui, "DejaVu Sans", sans-serif'
     c.textBaseline = 'middle'
     c.textAlign = 'right'
@@ -145,28 +150,38 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     handle.setAttribute('aria-valuetext', t.value(vehicles, delay, state))
     handle.dataset.state = state
   }
+  const describe = () => {
+    if (!curves) return
+    const { vehicles } = shown()
+    const at = curves.vehicles.findIndex(n => n >= vehicles)
+    const [discrete, continuous, newell] = [curves.discrete_s, curves.continuous_s, curves.newell_s].map(c => c[at] ?? null)
+    const words = t.describe(vehicles, discrete!, continuous!, newell!)
+    // The time step is in the words of a curve only.
+    const key = `${words} ${session.snapshot.scenario.time_step}`
+    if (key === described) return
+    described = key
+    canvas.setAttribute('aria-label', words)
+    lines.replaceChildren(
+      keys([
+        { label: t.discrete(String(session.snapshot.scenario.time_step), discrete!), colour: 'var(--ink)' },
+        { label: t.continuous(continuous!), colour: 'var(--accent)', dash: [7, 4] },
+        { label: t.newell(newell!), colour: 'var(--soft)', dash: [2, 4] },
+      ]),
+    )
+  }
   const draw = () => {
     if (!session.snapshot || !curves) return
+    describe()
     redraw()
     place()
   }
   const speak = (v: Verdict) => {
     state = v.stable === null ? '' : v.stable ? t.stable : t.unstable
   }
-  const describe = () => {
-    if (!curves) return
-    const { vehicles } = now()
-    const at = curves.vehicles.findIndex(n => n >= vehicles)
-    const critical = curves.discrete_s[at] ?? null
-    const newell = curves.newell_s[at] ?? null
-    const said = (value: number | null) => (value === null ? t.every : unit(exactly(value, 3), 's'))
-    canvas.setAttribute('aria-label', t.describe(vehicles, said(critical), said(newell)))
-  }
   const show = () => {
     if (!session.snapshot) return
     if (!draft) speak(session.snapshot.verdict)
     note.hidden = session.snapshot.verdict.alike
-    describe()
     draw()
   }
 
@@ -277,17 +292,6 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
       show()
     },
     show,
-    redraw() {
-      if (!session.snapshot) return
-      const dt = session.snapshot.scenario.time_step
-      lines.replaceChildren(
-        keys([
-          { label: t.discrete(String(dt)), colour: style('--ink') },
-          { label: t.continuous, colour: style('--accent'), dash: [7, 4] },
-          { label: t.newell, colour: style('--soft'), dash: [2, 4] },
-        ]),
-      )
-      draw()
-    },
+    redraw: draw,
   }
 }

@@ -89,7 +89,7 @@ export function rootsView() {
     c.font = '12.5px system-ui, "DejaVu Sans", sans-serif'
     c.textBaseline = 'middle'
     c.textAlign = 'right'
-    word(c, t.fades, x(0) - 5, f.top + 11, style('--good'))
+    word(c, t.fades, x(0) - 6, f.top + 11, style('--good'))
     c.textAlign = 'left'
     word(c, t.grows, x(0) + 5, f.top + 11, style('--bad'))
   })
