@@ -1,6 +1,8 @@
 //! The door of the WebAssembly module: numbers and texts in, typed arrays and JSON out, and the maps painted on
 //! their canvas. It decides nothing; a refusal comes out as the text of [`crate::error::Invalid`].
 
+mod theory;
+
 use crate::action::Action;
 use crate::colour::{Ground, Quantity, Rgb, Scale};
 use crate::error::Invalid;
@@ -397,6 +399,7 @@ fn verdict(v: &Verdict) -> Value {
         "reaction_time": v.reaction_time,
         "critical": v.critical,
         "critical_discrete": v.critical_discrete,
+        "scale": v.scale,
         "rate": v.rate,
         "mode": v.mode,
         "equilibrium_speed": v.equilibrium.speed,

@@ -14,6 +14,7 @@ import { liveView } from './views/live'
 import { mapView } from './views/map'
 import { ringView } from './views/ring'
 import { speedsView } from './views/speeds'
+import { stabilityView } from './views/stability'
 import { tabs } from './views/tabs'
 import { transportView } from './views/transport'
 import { troubleView } from './views/trouble'
@@ -35,6 +36,7 @@ async function run(app: HTMLElement): Promise<void> {
   const controls = controlsView(session, verdict.preview)
   const map = await mapView(session)
   const more = tabs([
+    { id: 'stability', name: text.tabs.stability, panel: stabilityView(session, verdict.preview) },
     { id: 'lanes', name: text.tabs.lanes, panel: lanesView(session) },
     { id: 'car', name: text.tabs.car, panel: carView(session) },
     { id: 'actions', name: text.tabs.actions, panel: actionsView(session) },

@@ -3,6 +3,7 @@ import { runAll } from './harness.mjs'
 
 await import('./places.mjs')
 await import('./traffic.mjs')
+await import('./stability.mjs')
 await import('./input.mjs')
 await import('./manners.mjs')
 await runAll(process.argv[2])

@@ -104,6 +104,10 @@ export class Host {
       return this.#snapshot()
     },
     preview: ({ name, value }) => JSON.parse(this.#core.preview(name, value)),
+    previewPoint: ({ vehicles, reactionTime }) => JSON.parse(this.#core.preview_point(String(vehicles), String(reactionTime))),
+    plane: () => JSON.parse(this.#core.plane()),
+    roots: () => JSON.parse(this.#core.roots()),
+    modes: () => JSON.parse(this.#core.modal_growth()),
     seek: async ({ time }, progress) => {
       const step = this.#core.step_at(time)
       if (step < this.#core.step_index()) this.#core.rewind()
