@@ -33,7 +33,8 @@ LOG = 2>&1 | tee $(LOGS)/$@.log
 # The version carries the commit, where a build script reads it: a new commit is a change of the source.
 COMMIT := $(if $(wildcard build.rs),$(wildcard $(shell git rev-parse --git-path logs/HEAD 2>/dev/null)))
 CORE := Cargo.toml Cargo.lock .cargo/config.toml $(wildcard build.rs) $(COMMIT) \
-	$(shell find src -name '*.rs' -not -path src/main.rs)
+	$(shell find src -name '*.rs' -not -path src/main.rs -not -path 'src/command/*')
+COMMAND := src/main.rs $(wildcard src/command/*.rs)
 PAGE := $(wildcard www/*.html www/*.ts www/tsconfig.json) $(shell find www/src www/public -type f 2>/dev/null)
 
 # ---- what people type ------------------------------------------------------------------------------------------
@@ -101,13 +102,13 @@ dist/ringroad.html: www/pkg/ringroad_bg.wasm www/node_modules/.package-lock.json
 	$(NPM) run build
 	@touch $@
 
-target/release/ringroad: $(CORE) src/main.rs | setup
+target/release/ringroad: $(CORE) $(COMMAND) | setup
 	cargo build --locked --release
 	@touch $@
 
 # The hashes of the tables that the native core computes, for the browser to compute again. The native test
 # writes them to $RINGROAD_HASHES (.cargo/config.toml); tests/web.rs includes that file.
-target/hashes.json: $(CORE) tests/hashes.rs | setup
+target/hashes.json: $(CORE) tests/hashes.rs $(wildcard tests/common/*.rs) | setup
 	cargo test --test hashes
 	@touch $@
 
@@ -139,7 +140,7 @@ test-rust: # with the tests in the documentation and in the README
 	cargo test $(LOG)
 
 test-csv: target/release/ringroad .venv/.installed
-	$(PYTHON) tests/python/read_csv.py $(LOG)
+	$(PYTHON) -m unittest discover --start-directory tests/python --pattern '*.py' $(LOG)
 
 test-types: www/pkg/ringroad_bg.wasm
 	$(NPM) run typecheck

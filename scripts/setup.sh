@@ -103,9 +103,10 @@ install() { cargo install "$@" --locked --force || cargo install "$@" --force; }
 
 if ! has_rust; then
   have rustup || fail "Rust $rust_wanted or newer is needed: install rustup (https://rustup.rs)"
-  echo "setup: Rust $rust_wanted"
-  rustup toolchain install stable --profile minimal
-  has_rust || fail "Rust $rust_wanted or newer is needed, and the active toolchain is $(rust_version): rustup default stable"
+  toolchain=$(sed -nE 's/^channel = "(.*)"/\1/p' rust-toolchain.toml)
+  echo "setup: Rust $toolchain"
+  rustup toolchain install "$toolchain" --profile minimal
+  has_rust || fail "Rust $rust_wanted or newer is needed, and $(rust_version) is active: rustup show tells why"
 fi
 has_wasm_target || rustup target add wasm32-unknown-unknown
 if [ "$purpose" = test ]; then

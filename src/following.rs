@@ -16,6 +16,7 @@
 
 use crate::driver::Driver;
 use crate::exp::exp_within;
+use crate::history::History;
 use crate::vector::{CHUNK, Width, kernel};
 
 /// Steps between full evaluations of all factors.
@@ -167,13 +168,45 @@ kernel! {
 }
 
 kernel! {
-    /// Positions: x += v·dt.
-    fn drive(old: &[f64], speed: &[f64], dt: f64, new: &mut [f64]) {
+    /// Positions: x += v·dt. `extremes` gets the smallest and the largest of the first `vehicles` speeds, which does not
+    /// depend on the order of comparisons.
+    fn drive(old: &[f64], speed: &[f64], dt: f64, vehicles: usize, new: &mut [f64], extremes: &mut [f64; 2]) {
+        let (mut least, mut most) = ([f64::INFINITY; CHUNK], [f64::NEG_INFINITY; CHUNK]);
         for start in (0..speed.len()).step_by(CHUNK) {
             let (old, speed) = (chunk(old, start), chunk(speed, start));
             let new = chunk_mut(new, start);
             for j in 0..CHUNK {
                 new[j] = old[j] + speed[j] * dt;
+            }
+            if start + CHUNK <= vehicles {
+                for j in 0..CHUNK {
+                    least[j] = if speed[j] < least[j] { speed[j] } else { least[j] };
+                    most[j] = if speed[j] > most[j] { speed[j] } else { most[j] };
+                }
+            } else {
+                for v in &speed[..vehicles - start] {
+                    least[0] = least[0].min(*v);
+                    most[0] = most[0].max(*v);
+                }
+            }
+        }
+        *extremes = [least.into_iter().fold(f64::INFINITY, f64::min), most.into_iter().fold(f64::NEG_INFINITY, f64::max)];
+    }
+}
+
+kernel! {
+    /// What everyone sees where each has a delay of their own: row `head − delay` of `rows` rows, `row` numbers each.
+    fn see_apart(offset: &[f64], leaders: &[u32], delays: &[u32], data: &[f64], geometry: [u32; 3], scene: &mut [f64]) {
+        let [head, rows, row] = geometry;
+        for start in (0..delays.len()).step_by(CHUNK) {
+            let delays: &[u32; CHUNK] = (&delays[start..start + CHUNK]).try_into().expect("padded");
+            let leaders: &[u32; CHUNK] = (&leaders[start..start + CHUNK]).try_into().expect("padded");
+            let offset = chunk(offset, start);
+            let scene = chunk_mut(scene, start);
+            for j in 0..CHUNK {
+                let back = if delays[j] > head { rows } else { 0 };
+                let begin = ((head + back) - delays[j]) as usize * row as usize;
+                scene[j] = offset[j] + (data[begin + leaders[j] as usize] - data[begin + start + j]);
             }
         }
     }
@@ -238,9 +271,25 @@ impl Following {
         self.state.speed[j] = speed;
     }
 
-    /// New displacements after a step of `dt` seconds.
-    pub fn drive(&self, old: &[f64], dt: f64, new: &mut [f64]) {
-        drive(self.width, old, &self.state.speed, dt, new);
+    /// What everyone sees, each with a delay of their own; all slices padded.
+    pub fn see_apart(
+        &self,
+        offset: &[f64],
+        leaders: &[u32],
+        delays: &[u32],
+        history: &History,
+        scene: &mut [f64],
+    ) {
+        let (data, geometry) = history.rows();
+        see_apart(self.width, offset, leaders, delays, data, geometry, scene);
+    }
+
+    /// New displacements after a step of `dt` seconds; how far the fastest of the first `vehicles` has gone ahead of the
+    /// slowest, m.
+    pub fn drive(&self, old: &[f64], dt: f64, vehicles: usize, new: &mut [f64]) -> f64 {
+        let mut extremes = [0.0; 2];
+        drive(self.width, old, &self.state.speed, dt, vehicles, new, &mut extremes);
+        (extremes[1] - extremes[0]) * dt
     }
 
     /// New speeds where the leader of j is j + 1, and the displacements that all see are in one row `seen`, in which
@@ -279,5 +328,94 @@ impl Following {
         self.state.speed[j] = if v > 0.0 { v } else { 0.0 };
         self.state.factor[j] = factor;
         self.state.perceived[j] = scene;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::{Generator, Stream};
+
+    /// Over the corners of what the table of parameters allows: headways that wander as far as a step can take them,
+    /// a million steps, vehicles with one law and with laws of their own.
+    #[test]
+    fn a_million_steps_stay_within_the_stated_error_of_the_exponential() {
+        let mut generator = Generator::new(1, Stream::Start);
+        let mut worst = 0.0_f64;
+        for max_speed in [0.1, 40.0, 100.0] {
+            for sensitivity in [0.01, 1.0, 20.0] {
+                for (dt, steps) in [(0.001, 1_000_000_u64), (0.01, 100_000), (0.5, 10_000)] {
+                    for apart in [false, true] {
+                        let mut drivers = [Driver { max_speed, sensitivity, ..Driver::default() }; CHUNK];
+                        if apart {
+                            drivers[0].min_headway = 9.0;
+                        }
+                        let mut following = Following::new(&drivers, CHUNK);
+                        let mut scene = [20.0; CHUNK];
+                        for step in 0..steps {
+                            following.respond(&scene, step.is_multiple_of(REFRESH));
+                            if step % REFRESH == REFRESH - 1 {
+                                for (j, driver) in drivers.iter().enumerate() {
+                                    let error = (following.speeds()[j] - driver.speed(scene[j])).abs();
+                                    worst = worst.max(error / max_speed);
+                                }
+                            }
+                            for h in &mut scene {
+                                *h += (generator.uniform() - 0.5) * 2.0 * max_speed * dt;
+                                *h = h.abs();
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        println!("largest error: {worst:e} V");
+        assert!(worst < 3e-14, "largest error {worst:e} V");
+        assert!(worst > 0.0, "the factor is not evaluated anew at every step");
+    }
+
+    /// The polynomial against the exponential where it is used.
+    #[test]
+    fn one_step_of_the_factor_is_good_to_rounding() {
+        for k in -10_000..=10_000 {
+            let a = f64::from(k) * 1e-4 * SMALL;
+            assert!((moved(1.0, a) / exp_within(a) - 1.0).abs() < 5e-16, "a = {a}");
+        }
+    }
+
+    #[test]
+    fn a_jump_is_evaluated_in_full_and_does_not_touch_the_others() {
+        let driver = Driver::default();
+        let mut following = Following::new(&[driver; CHUNK], CHUNK);
+        let mut scene = [20.0; CHUNK];
+        following.respond(&scene, true);
+        scene[3] = 8.0;
+        scene[4] = 20.0 + 1e-9;
+        following.respond(&scene, false);
+        assert_eq!(following.speeds()[3], driver.speed(8.0));
+        assert_eq!(following.speeds()[2], driver.speed(20.0));
+        scene[3] = -1e6;
+        scene[5] = 1e9;
+        following.respond(&scene, false);
+        assert_eq!((following.speeds()[3], following.speeds()[5]), (0.0, 40.0));
+        // Back from where the exponential would have overflowed.
+        scene[3] = 20.0;
+        following.respond(&scene, false);
+        assert_eq!(following.speeds()[3], driver.speed(20.0));
+    }
+
+    #[test]
+    fn one_vehicle_and_all_at_once_agree_to_the_bit() {
+        let drivers = [Driver { sensitivity: 1.3, ..Driver::default() }; CHUNK];
+        let (mut one, mut all) = (Following::new(&drivers, CHUNK), Following::new(&drivers, CHUNK));
+        let mut generator = Generator::new(3, Stream::Start);
+        for _ in 0..1000 {
+            let scene: [f64; CHUNK] = std::array::from_fn(|_| 20.0 + generator.uniform());
+            all.respond(&scene, false);
+            for (j, h) in scene.iter().enumerate() {
+                one.respond_one(j, *h);
+            }
+            assert_eq!(one.speeds(), all.speeds());
+        }
     }
 }

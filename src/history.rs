@@ -20,7 +20,7 @@ pub struct History {
 }
 
 impl History {
-    /// All displacements 0, with room to look back `steps` steps.
+    /// All displacements 0, with room to look back `steps` steps, and one step more in a step in which that grows.
     pub fn new(vehicles: usize, steps: usize) -> Self {
         // One more than the vehicles, and one more than a whole number of chunks: see `close`.
         let width = padded(vehicles) + CHUNK;
@@ -33,6 +33,11 @@ impl History {
     pub fn seen(&self, delay: usize) -> &[f64] {
         let start = self.row_start(delay);
         &self.data[start..start + self.width]
+    }
+
+    /// All rows one after the other, and where: the present row, the number of rows, the numbers in each.
+    pub(crate) fn rows(&self) -> (&[f64], [u32; 3]) {
+        (&self.data, [self.head as u32, self.rows as u32, self.width as u32])
     }
 
     /// The displacement of one vehicle `delay` steps ago.
@@ -77,6 +82,11 @@ impl History {
         }
     }
 
+    /// How far back it can look, in steps.
+    pub fn looks_back(&self) -> usize {
+        self.rows - rows_for(0)
+    }
+
     /// Changes how far back it can look. Rows that were not kept before are not to be asked for: the delay in
     /// force grows by at most one step per step.
     pub fn look_back(&mut self, steps: usize) {
@@ -111,9 +121,10 @@ pub(crate) fn padded(vehicles: usize) -> usize {
     vehicles.next_multiple_of(CHUNK)
 }
 
-/// The present row and the one before are always there: passes are told by both.
+/// The present row, those looked back at, and one more: the step in which a reaction time grows looks back a step
+/// farther at once. So the row before the present one is always there too, by which passes are told.
 fn rows_for(steps: usize) -> usize {
-    steps.max(1) + 1
+    steps + 2
 }
 
 #[cfg(test)]
@@ -135,22 +146,22 @@ mod tests {
                 step += 1.0;
                 advanced(&mut history, step);
             }
-            for delay in 0..=look_back {
+            for delay in 0..=look_back + 1 {
                 assert_eq!(history.at(delay, 2), step - delay as f64);
             }
         }
         // Growing keeps what was known.
         history.look_back(9);
-        for delay in 0..=5 {
+        for delay in 0..=6 {
             assert_eq!(history.at(delay, 0), step - delay as f64);
         }
     }
 
     #[test]
     fn it_holds_the_rows_in_use_and_no_more() {
-        assert_eq!(History::new(16, 75).bytes(), (16 + 8) * 8 * 76);
+        assert_eq!(History::new(16, 75).bytes(), (16 + 8) * 8 * 77);
         let mut history = History::new(16, 75);
         history.look_back(10);
-        assert_eq!(history.bytes(), (16 + 8) * 8 * 11);
+        assert_eq!(history.bytes(), (16 + 8) * 8 * 12);
     }
 }

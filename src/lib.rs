@@ -18,6 +18,7 @@
 //! | [`link`] | a scenario as the readable part of a link |
 //! | [`colour`] | colour of speed and frustration, for ring and maps |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
+//! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 //! | [`preset`] | scenarios with names |
 //! | [`measurement`] | what to measure, plain data |
 //! | [`probe`] | one file a measurement |
@@ -51,6 +52,7 @@ pub mod reaction;
 pub mod ring;
 pub mod scenario;
 pub mod simulation;
+pub mod stability;
 pub mod table;
 pub mod vector;
 pub mod verdict;

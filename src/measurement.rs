@@ -164,6 +164,9 @@ pub static SETTINGS: [Setting; 12] = [
     Setting { name: "periods", option: "periods", unit: "", min: 2.0, max: 1e6, whole: true, list: false, meaning: "number of periods fitted" },
 ];
 
+/// Numbers that a flow's window may hold, one for each row begun and place.
+const COUNTS: f64 = 1e8;
+
 impl Setting {
     /// What is allowed, in words.
     pub fn allowed(&self) -> String {
@@ -223,7 +226,7 @@ impl Measurement {
             Self::FlowMap { every, bins: 100, window: 18.63 },
             Self::Flow { every, window: 5.0, at: None },
             Self::Modes { every, modes: None, lane: 1 },
-            Self::Growth { every: 0.5, modes: None, lane: 1, from: None, smallest: 1e-9, nonlinearity: 0.01 },
+            Self::Growth { every: 0.5, modes: None, lane: 1, from: None, smallest: 1e-8, nonlinearity: 0.01 },
             Self::CyclicGrowth { vehicle: 1, periods: 5 },
             Self::Equilibrium { every },
             Self::Events {},
@@ -411,6 +414,18 @@ impl Measurement {
                 _ => Ok(()),
             }?;
         }
+        let counts = match resolved {
+            Self::FlowMap { every, bins, window } => Some((every, bins, window)),
+            Self::Flow { every, window, .. } => Some((every, 1, window)),
+            _ => None,
+        };
+        if let Some((every, bins, window)) = counts
+            && window / every * bins as f64 > COUNTS
+        {
+            let most = COUNTS * every / bins as f64;
+            let allowed = format!("at most {most} s with rows every {every} s at {bins} places");
+            return Err(Invalid::new("window", window, allowed).within(self.name()));
+        }
         Ok(())
     }
 
@@ -525,6 +540,7 @@ mod tests {
             (r#"{"table":"speed-map","bins":0}"#, &["speed-map: bins", "0", "from 1"]),
             (r#"{"table":"flow","at":1000}"#, &["flow: at", "1000", "less than 1000 m"]),
             (r#"{"table":"flow","window":-1}"#, &["flow: window", "-1"]),
+            (r#"{"table":"flow","window":1e7,"every":0.01}"#, &["flow: window", "10000000", "1000000 s"]),
             (r#"{"table":"modes","modes":26}"#, &["modes: modes", "26", "at most 25"]),
             (r#"{"table":"growth","from":-1}"#, &["growth: from", "-1"]),
             (r#"{"table":"growth","nonlinearity":0}"#, &["growth: nonlinearity", "0", "from 0.000000000001"]),

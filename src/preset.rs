@@ -57,7 +57,7 @@ pub fn presets() -> Vec<Preset> {
         Preset {
             name: "instant",
             title: "No reaction time",
-            notice: "Drivers respond at once, and the wave that the nudge makes fades within two rounds.",
+            notice: "Drivers respond at once: after one round of the ring, 68 s, a wave of millimetres is left of the nudge.",
             next: "Raise the reaction time to 0.5 s and see how much longer the wave lives.",
             scenario: nudged(0.0),
         },
@@ -65,7 +65,8 @@ pub fn presets() -> Vec<Preset> {
             name: "stable",
             title: "Stable",
             notice: "With a reaction time of 0.5 s, below the critical 0.679 s, the wave travels upstream and fades.",
-            next: "Raise the reaction time past 0.679 s, or put fewer vehicles on the ring.",
+            next: "Raise the reaction time past 0.679 s. Or leave it and add vehicles: with 126 the ring is still stable, \
+                   with 127 it is not.",
             scenario: nudged(0.5),
         },
         Preset {
@@ -89,7 +90,7 @@ pub fn presets() -> Vec<Preset> {
             title: "Two lanes share the load",
             notice: "All 50 vehicles start in one lane; frustration moves them over until both lanes carry about \
                      the same number, and flow rises.",
-            next: "Lower r and p: the lanes balance later, and in the end more evenly.",
+            next: "Lower r and p: the lanes balance later, and with fewer lane changes.",
             scenario: lanes(50, 2, Start::OneLane(1), (0.1, 0.2)),
         },
         Preset {
@@ -123,11 +124,9 @@ pub fn presets() -> Vec<Preset> {
 /// The preset of that name.
 pub fn preset(name: &str) -> Result<Preset, Invalid> {
     let mut all = presets();
-    match all.iter().position(|p| p.name == name) {
-        Some(k) => Ok(all.swap_remove(k)),
-        None => {
-            let names: Vec<_> = all.iter().map(|p| p.name).collect();
-            Err(Invalid::new("preset", quoted(name), names.join(", ")))
-        }
+    if let Some(k) = all.iter().position(|p| p.name == name) {
+        return Ok(all.swap_remove(k));
     }
+    let names: Vec<_> = all.iter().map(|p| p.name).collect();
+    Err(Invalid::new("preset", quoted(name), names.join(", ")))
 }

@@ -4,12 +4,15 @@
 //! step per step towards the target and falls to it at once: so it never looks further back than what
 //! was seen.
 
+use crate::history::padded;
+
 /// Delays of all drivers, in steps.
 #[derive(Clone, Debug)]
 pub struct Delays {
     target: Vec<u32>,
     /// What the delay may be at most now: one more than it was in the step before.
     cap: Vec<u32>,
+    /// Padded, with delays of 0.
     delay: Vec<u32>,
     /// Every delay has been at its target for a step: nothing changes by itself.
     settled: bool,
@@ -20,8 +23,9 @@ pub struct Delays {
 impl Delays {
     /// At t = 0, with these targets.
     pub fn new(target: Vec<u32>) -> Self {
-        let zeros = vec![0; target.len()];
-        let mut delays = Self { target, cap: zeros.clone(), delay: zeros, settled: false, common: None };
+        let delay = vec![0; padded(target.len())];
+        let cap = vec![0; target.len()];
+        let mut delays = Self { target, cap, delay, settled: false, common: None };
         delays.find_common();
         delays
     }
@@ -49,8 +53,8 @@ impl Delays {
 
     /// Finds out whether all drivers have one delay.
     pub fn find_common(&mut self) {
-        let first = self.delay[0];
-        self.common = self.delay.iter().all(|&d| d == first).then_some(first);
+        let delays = &self.delay[..self.target.len()];
+        self.common = delays.iter().all(|d| *d == delays[0]).then_some(delays[0]);
     }
 
     /// The delay that all drivers have, if they have one.
@@ -65,7 +69,7 @@ impl Delays {
         self.delay[j] as usize
     }
 
-    /// The delays in force of all drivers.
+    /// The delays in force of all drivers (padded).
     #[inline]
     pub fn all(&self) -> &[u32] {
         &self.delay

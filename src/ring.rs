@@ -90,8 +90,9 @@ pub struct Ring {
     /// Offset of the leader: its headway at the start, for vehicles that still follow the same one.
     offset: Vec<f64>,
     beside: Vec<[Beside; 2]>,
-    /// The step before which nobody can come past a vehicle or be passed by it; see [`Ring::follow_motion`].
-    watch: Vec<u64>,
+    /// The reading of the odometer before which nobody can come past a vehicle or be passed by it; see
+    /// [`Ring::follow_motion`].
+    watch: Vec<f64>,
     /// Vehicles per lane.
     count: Vec<usize>,
     /// Some vehicle of each lane that has one.
@@ -101,7 +102,7 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// The start of a valid scenario, before any nudge. Beside is not known yet: see [`Self::find_beside`].
+    /// The start of a valid scenario, before any nudge. Beside is not known yet: see `find_beside`.
     pub fn new(scenario: &Scenario) -> Self {
         let n = scenario.vehicles;
         let length = scenario.length;
@@ -149,7 +150,7 @@ impl Ring {
         }
         if scenario.lanes > 1 {
             ring.beside = (0..n).map(|j| [Beside::no_lane(j); 2]).collect();
-            ring.watch = vec![0; n];
+            ring.watch = vec![f64::NEG_INFINITY; n];
         }
         // Padding that kernels may read: vehicles that follow themselves.
         ring.offset.resize(padded(n), length);
@@ -319,7 +320,7 @@ impl Ring {
     /// Has every vehicle looked at closely in the next [`Self::follow_motion`]: after a jump in positions, or where
     /// someone may be faster from now on.
     pub(crate) fn watch_all(&mut self) {
-        self.watch.fill(0);
+        self.watch.fill(f64::NEG_INFINITY);
     }
 
     /// The next vehicle ahead of j in a lane, by looking at all of them.
@@ -341,55 +342,89 @@ impl Ring {
 
     /// The next vehicle ahead of j, at i or ahead of i, where i is about `about` metres ahead (negative: behind).
     fn walk_ahead(&self, j: usize, mut i: usize, mut about: f64, s: &[f64]) -> Beside {
-        loop {
+        let lane = self.lane(i);
+        for _ in 0..=2 * self.count[lane] {
             if let Some(offset) = self.offset_if_ahead(i, j, s, about) {
                 return Beside { vehicle: i as u32, offset };
             }
             about += self.headway(i, s);
             i = self.ahead(i);
         }
+        // Twice round: nudges have put the lane out of order, or someone several laps ahead.
+        self.search(j, lane, s)
     }
 
     /// Brings beside up to date after the vehicles have moved, and tells who was passed by whom, in order of the
-    /// passed. No two vehicles come closer to each other by more than `reach` metres in a step, so that one with
-    /// nobody near need not be looked at for a while.
-    pub(crate) fn follow_motion(&mut self, step: u64, reach: f64, s: &[f64], passes: &mut Vec<Pass>) {
+    /// passed. `odometer` (m) tells how far the fastest vehicle of each step has gone ahead of the slowest, summed over
+    /// the steps: no two come closer by more, so that a vehicle with nobody near need not be looked at for a
+    /// while.
+    pub(crate) fn follow_motion(&mut self, odometer: f64, s: &[f64], passes: &mut Vec<Pass>) {
         for j in 0..self.watch.len() {
-            if self.watch[j] > step {
+            if self.watch[j] > odometer {
                 continue;
             }
             let nearest = Side::BOTH.map(|side| self.follow_side(j, side, s, passes));
-            let distance = nearest[0].min(nearest[1]) - NEAR;
-            // `as` saturates: infinity, where no vehicle is in reach at all, is the largest number of steps.
-            self.watch[j] = step.saturating_add(((0.999 * distance / reach) as u64).max(1));
+            // The factor and `NEAR` leave room for rounding.
+            self.watch[j] = odometer + 0.999 * (nearest[0].min(nearest[1]) - NEAR);
         }
     }
 
     /// [`Self::follow_motion`] for one vehicle and side; the distance to the nearest vehicle there, ahead or behind.
     fn follow_side(&mut self, j: usize, side: Side, s: &[f64], passes: &mut Vec<Pass>) -> f64 {
-        let Some(mut i) = self.beside[j][side as usize].vehicle() else { return f64::INFINITY };
-        let mut distance = self.beside[j][side as usize].distance(j, s);
+        let pass = |i: usize| passes.push(Pass { passer: i as u32, passed: j as u32 });
+        let Some((found, nearest)) = self.look_beside(j, side, s, pass) else { return f64::INFINITY };
+        self.beside[j][side as usize] = found;
+        nearest
+    }
+
+    /// The next vehicle ahead in the adjacent lane at the displacements `s`, and the distance to the nearest vehicle
+    /// there, ahead or behind. Starts from what was known last, and tells who has come past j since then.
+    fn look_beside(
+        &self,
+        j: usize,
+        side: Side,
+        s: &[f64],
+        mut pass: impl FnMut(usize),
+    ) -> Option<(Beside, f64)> {
+        let mut found = self.beside(j, side);
+        let mut i = found.vehicle()?;
+        let mut distance = found.distance(j, s);
         if distance <= 0.0 {
             // j has passed i, and perhaps more.
-            let found = self.walk_ahead(j, self.ahead(i), distance + self.headway(i, s), s);
-            self.beside[j][side as usize] = found;
+            found = self.walk_ahead(j, self.ahead(i), distance + self.headway(i, s), s);
             i = found.vehicle as usize;
             distance = found.distance(j, s);
         }
+        let mut walked = 0;
         loop {
             let follower = self.behind(i);
             let about = distance - self.headway(follower, s);
             if about <= -NEAR {
-                return distance.min(-about);
+                return Some((found, distance.min(-about)));
             }
             // The one behind i was at most alongside; now it is looked at exactly.
-            let Some(offset) = self.offset_if_ahead(follower, j, s, about) else { return 0.0 };
-            let found = Beside { vehicle: follower as u32, offset };
-            self.beside[j][side as usize] = found;
-            passes.push(Pass { passer: follower as u32, passed: j as u32 });
-            i = follower;
-            distance = found.distance(j, s);
+            let seen = Beside { vehicle: follower as u32, offset: self.offset_of(follower, j, s) };
+            let more_laps = ((about - seen.distance(j, s)) / self.length).round();
+            if more_laps < 0.0 {
+                return Some((found, 0.0));
+            }
+            // Once round, everyone there has come past.
+            if walked < self.count[self.lane(follower)] {
+                pass(follower);
+            }
+            walked += 1;
+            (found, i) = (seen, follower);
+            distance = seen.distance(j, s) + more_laps * self.length;
         }
+    }
+
+    /// The next vehicle ahead in the adjacent lane on that side, wherever the vehicles have moved since the last
+    /// [`Self::follow_motion`]; none in an empty lane or where there is no lane.
+    pub(crate) fn adjacent(&self, j: usize, side: Side, s: &[f64]) -> Option<usize> {
+        if self.beside.is_empty() {
+            return None;
+        }
+        self.look_beside(j, side, s, |_| {}).map(|(found, _)| found.vehicle as usize)
     }
 
     /// Moves `m` to the lane on that side; the vehicles of the lanes around learn of it. `crossed` gets the vehicles
@@ -412,7 +447,7 @@ impl Ring {
             None => Beside::empty_lane(m),
         };
         self.beside[m][side as usize] = self.find_in_far_lane(m, side, s);
-        self.watch[m] = 0;
+        self.watch[m] = f64::NEG_INFINITY;
         for listeners in Side::BOTH {
             self.announce_arrival(m, listeners, s);
         }
@@ -427,6 +462,9 @@ impl Ring {
             let mut walk = self.back_from_beside(m, side);
             while let Some(j) = walk.step(&self.behind) {
                 if self.beside(j, toward).vehicle() != Some(m) {
+                    if walk.may_be_alongside() {
+                        continue;
+                    }
                     break;
                 }
                 self.beside[j][toward as usize] = if leader == m {
@@ -446,17 +484,21 @@ impl Ring {
         while let Some(j) = walk.step(&self.behind) {
             let arrived = Beside { vehicle: m as u32, offset: self.offset_of(m, j, s) };
             if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
+                if walk.may_be_alongside() {
+                    self.watch[j] = f64::NEG_INFINITY;
+                    continue;
+                }
                 break;
             }
             self.beside[j][toward as usize] = arrived;
-            self.watch[j] = 0;
+            self.watch[j] = f64::NEG_INFINITY;
         }
         let Some(mut j) = self.beside(m, side).vehicle() else { return };
         for _ in 0..self.count[self.lane(j)] {
             if self.beside(j, toward).vehicle() != Some(self.ahead(m)) {
                 break;
             }
-            self.watch[j] = 0;
+            self.watch[j] = f64::NEG_INFINITY;
             j = self.ahead(j);
         }
     }
@@ -466,6 +508,9 @@ impl Ring {
         let mut walk = self.back_from_beside(m, side);
         while let Some(j) = walk.step(&self.behind) {
             if self.laps(m, j, s) <= self.laps(m, j, before) {
+                if walk.may_be_alongside() {
+                    continue;
+                }
                 break;
             }
             crossed.push(Pass { passer: m as u32, passed: j as u32 });
@@ -475,8 +520,8 @@ impl Ring {
     /// The vehicles of the lane on that side of m, once round, backwards from the one that is at most alongside.
     fn back_from_beside(&self, m: usize, side: Side) -> BackWalk {
         match self.beside(m, side).vehicle() {
-            Some(i) => BackWalk { next: self.behind(i), left: self.count[self.lane(i)] },
-            None => BackWalk { next: 0, left: 0 },
+            Some(i) => BackWalk::new(self.behind(i), self.count[self.lane(i)]),
+            None => BackWalk::new(0, 0),
         }
     }
 
@@ -524,10 +569,20 @@ impl Ring {
 /// [`BackWalk::step`].
 struct BackWalk {
     next: usize,
+    count: usize,
     left: usize,
 }
 
 impl BackWalk {
+    fn new(next: usize, count: usize) -> Self {
+        Self { next, count, left: count }
+    }
+
+    /// Whether this is the first one: exactly alongside, it would be a lap behind, and say nothing of those behind it.
+    fn may_be_alongside(&self) -> bool {
+        self.left + 1 == self.count
+    }
+
     fn step(&mut self, behind: &[u32]) -> Option<usize> {
         self.left = self.left.checked_sub(1)?;
         let j = self.next;

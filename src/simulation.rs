@@ -28,6 +28,10 @@ use crate::reaction::Delays;
 use crate::ring::{Pass, Ring, Side};
 use crate::scenario::{Scenario, assign, check_min_headway};
 use crate::vector::Width;
+use std::ops::Range;
+
+/// A reading that the odometer has always passed: look at once.
+const LOOK: f64 = f64::NEG_INFINITY;
 
 /// Two vehicles have touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +69,8 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     drivers: Vec<Driver>,
     ring: Ring,
     history: History,
+    /// The history looks farther back than anyone does any more.
+    history_is_long: bool,
     delays: Delays,
     following: Following,
     /// Perceived headways in the making.
@@ -85,10 +91,11 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     collision: Option<Collision>,
     /// Actions still to come, the next one last: (step, place in the list).
     agenda: Vec<(u64, usize)>,
-    /// No two vehicles can touch before this step.
-    clear_until: u64,
-    /// The largest V of any driver, m/s.
-    top_speed: f64,
+    /// How far the fastest vehicle of each step has gone ahead of the slowest, summed over the steps, m: no two can
+    /// have come closer by more.
+    odometer: f64,
+    /// The reading of the odometer before which no two vehicles can touch.
+    clear_until: f64,
 }
 
 impl Simulation {
@@ -115,6 +122,7 @@ impl<S: Sampler> Simulation<S> {
             last_step: scenario.last_step(),
             ring: Ring::new(scenario),
             history: History::new(n, delays.longest_target()),
+            history_is_long: false,
             scene: vec![0.0; padded(n)],
             nudged: vec![0.0; n],
             braked: Vec::new(),
@@ -128,8 +136,8 @@ impl<S: Sampler> Simulation<S> {
             events_step: 0,
             collision: None,
             agenda,
-            clear_until: 0,
-            top_speed: 0.0,
+            odometer: 0.0,
+            clear_until: LOOK,
             drivers,
             delays,
             following,
@@ -196,7 +204,11 @@ impl<S: Sampler> Simulation<S> {
     }
     /// The next vehicle ahead in an adjacent lane; none in an empty lane or where there is no lane.
     pub fn adjacent(&self, j: usize, side: Side) -> Option<usize> {
-        if self.scenario.lanes > 1 { self.ring.beside(j, side).vehicle() } else { None }
+        self.ring.adjacent(j, side, self.history.now())
+    }
+    /// Displacements since t = 0, nudges after it included, m.
+    pub fn displacements(&self) -> &[f64] {
+        &self.history.now()[..self.vehicles()]
     }
     /// Position without wrapping: that at the start plus all displacements, m.
     pub fn unwrapped_position(&self, j: usize) -> f64 {
@@ -265,10 +277,11 @@ impl<S: Sampler> Simulation<S> {
         }
         self.events.clear();
         self.events_step = self.step;
-        if self.scenario.lanes > 1 && !self.order_is_lost() {
+        let touching = self.odometer >= self.clear_until && !self.find_clearance();
+        if self.scenario.lanes > 1 && !(touching && self.order_is_lost()) {
             self.change_lanes();
         }
-        if self.step >= self.clear_until {
+        if self.odometer >= self.clear_until {
             self.detect_collision();
             if self.collision.is_some() {
                 return;
@@ -277,6 +290,10 @@ impl<S: Sampler> Simulation<S> {
         self.forward();
         self.step += 1;
         self.delays.advance();
+        if self.history_is_long {
+            self.history.look_back(self.delays.longest_target());
+            self.history_is_long = false;
+        }
         if self.agenda.last().is_some_and(|&(due, _)| due <= self.step) {
             self.apply_due_actions();
         }
@@ -286,7 +303,7 @@ impl<S: Sampler> Simulation<S> {
     /// Stage 3: positions.
     fn forward(&mut self) {
         let (old, new) = self.history.advance();
-        self.following.drive(old, self.scenario.time_step, new);
+        self.odometer += self.following.drive(old, self.scenario.time_step, self.drivers.len(), new);
         self.history.close();
     }
 
@@ -301,9 +318,11 @@ impl<S: Sampler> Simulation<S> {
             }
             common => {
                 let leaders = self.ring.leaders();
-                match common {
-                    Some(delay) => see_alike(offset, leaders, self.history.seen(delay), &mut self.scene),
-                    None => see_apart(offset, leaders, &self.history, &self.delays, &mut self.scene),
+                if let Some(delay) = common {
+                    see_alike(offset, leaders, self.history.seen(delay), &mut self.scene);
+                } else {
+                    let delays = self.delays.all();
+                    self.following.see_apart(offset, leaders, delays, &self.history, &mut self.scene);
                 }
                 self.following.respond(&self.scene, refresh);
             }
@@ -321,55 +340,81 @@ impl<S: Sampler> Simulation<S> {
     fn change_lanes(&mut self) {
         self.passes.clear();
         self.late_passes.clear();
-        let reach = self.top_speed * self.scenario.time_step;
-        self.ring.follow_motion(self.step, reach, self.history.now(), &mut self.passes);
-        let mut next_pass = 0;
-        for j in 0..self.drivers.len() {
-            let [outer, inner] = self.seen_beside(j);
-            let own = self.following.perceived()[j];
-            let best = if outer > inner { outer } else { inner };
-            let mut frustration = compared(self.frustration[j], own, best, self.frustration_step[j]);
-            while let Some(&pass) = self.passes.get(next_pass).filter(|p| p.passed as usize == j) {
-                next_pass += 1;
-                frustration += self.count_pass(pass);
-            }
-            for k in 0..self.late_passes.len() {
-                if self.late_passes[k].passed as usize == j {
-                    frustration += self.count_pass(self.late_passes[k]);
+        self.ring.follow_motion(self.odometer, self.history.now(), &mut self.passes);
+        let n = self.drivers.len();
+        let (mut j, mut next_pass) = (0, 0);
+        while j < n {
+            // As far as the next vehicle that was passed there are only headways to compare.
+            let passed = if self.late_passes.is_empty() {
+                self.passes.get(next_pass).map_or(n, |pass| pass.passed as usize)
+            } else {
+                j
+            };
+            let attempt = if j < passed {
+                self.compare(j..passed, 0)
+            } else {
+                let mut count = 0;
+                while let Some(&pass) = self.passes.get(next_pass).filter(|p| p.passed as usize == j) {
+                    next_pass += 1;
+                    count += self.count_pass(pass);
                 }
+                for k in 0..self.late_passes.len() {
+                    if self.late_passes[k].passed as usize == j {
+                        count += self.count_pass(self.late_passes[k]);
+                    }
+                }
+                self.compare(j..j + 1, count)
+            };
+            j = match attempt {
+                Some((k, beside)) => {
+                    self.attempt(k, beside);
+                    k + 1
+                }
+                None => passed.max(j + 1),
+            };
+        }
+    }
+
+    /// Rules 1 and 2 for vehicles that have been passed by `passes` others each, then rule 3, up to the first that
+    /// attempts a lane change: which, and the headways it perceives in the adjacent lanes.
+    fn compare(&mut self, vehicles: Range<usize>, passes: u32) -> Option<(usize, [f64; 2])> {
+        let (history, delays) = (&self.history, &self.delays);
+        let common = delays.common().map(|delay| history.seen(delay));
+        let beside = self.ring.all_beside();
+        let own = self.following.perceived();
+        for j in vehicles {
+            let seen = match common {
+                Some(row) => row,
+                None => history.seen(delays.of(j)),
+            };
+            let [outer, inner] = [beside[j][0].distance(j, seen), beside[j][1].distance(j, seen)];
+            let best = if outer > inner { outer } else { inner };
+            let mut frustration = compared(self.frustration[j], own[j], best, self.frustration_step[j]);
+            for _ in 0..passes {
+                frustration += self.drivers[j].pass_frustration;
             }
             self.frustration[j] = frustration;
             if self.sampler.attempts(j, frustration) {
-                self.attempt(j, outer, inner);
+                return Some((j, [outer, inner]));
             }
         }
+        None
     }
 
-    /// Rule 3: a pass counts where the passer is in an adjacent lane now.
+    /// Whether a pass counts for rule 3 (1) or not (0): where the passer is in an adjacent lane now.
     #[cold]
-    fn count_pass(&mut self, pass: Pass) -> f64 {
+    fn count_pass(&mut self, pass: Pass) -> u32 {
         let (passer, passed) = (pass.passer as usize, pass.passed as usize);
         if self.ring.lane(passer).abs_diff(self.ring.lane(passed)) != 1 {
-            return 0.0;
+            return 0;
         }
         self.events.push(Event::Pass { passer, passed });
-        self.drivers[passed].pass_frustration
-    }
-
-    /// Perceived headways in the adjacent lanes: +∞ in an empty one, −∞ where there is no lane.
-    #[inline(always)]
-    fn seen_beside(&self, j: usize) -> [f64; 2] {
-        let seen = match self.delays.common() {
-            Some(delay) => self.history.seen(delay),
-            None => self.history.seen(self.delays.of(j)),
-        };
-        let [outer, inner] = self.ring.all_beside()[j];
-        [outer.distance(j, seen), inner.distance(j, seen)]
+        1
     }
 
     /// An attempt, aimed at the better adjacent lane.
     #[cold]
-    fn attempt(&mut self, j: usize, outer: f64, inner: f64) {
+    fn attempt(&mut self, j: usize, [outer, inner]: [f64; 2]) {
         let side =
             if outer > inner || (outer == inner && self.sampler.coin()) { Side::Outer } else { Side::Inner };
         let from = self.ring.lane(j);
@@ -393,8 +438,7 @@ impl<S: Sampler> Simulation<S> {
         self.lane_changes[j] += 1;
         for vehicle in [follower, self.ring.behind(j), j] {
             self.look_again(vehicle);
-            let steps = self.steps_until_contact(self.clearance(vehicle));
-            self.clear_until = self.clear_until.min(self.step + steps);
+            self.clear_until = self.clear_until.min(self.odometer + 0.999 * self.clearance(vehicle));
         }
     }
 
@@ -415,31 +459,25 @@ impl<S: Sampler> Simulation<S> {
         self.headway(j) - contact
     }
 
-    /// How many steps two vehicles of that clearance (m) cannot touch: it shrinks by at most V·dt a step. The
-    /// factor leaves room for rounding.
-    fn steps_until_contact(&self, clearance: f64) -> u64 {
-        (0.999 * clearance / (self.top_speed * self.scenario.time_step)) as u64
+    /// Whether nobody touches; the closest pair tells for how long nobody can. The factor leaves room for rounding.
+    fn find_clearance(&mut self) -> bool {
+        let closest = (0..self.drivers.len()).map(|j| self.clearance(j)).fold(f64::INFINITY, f64::min);
+        self.clear_until = self.odometer + 0.999 * closest;
+        closest > 0.0
     }
 
     /// Whether a vehicle has gone through its leader.
     fn order_is_lost(&self) -> bool {
-        self.step >= self.clear_until && (0..self.drivers.len()).any(|j| self.headway(j) <= 0.0)
+        (0..self.drivers.len()).any(|j| self.headway(j) <= 0.0)
     }
 
-    /// Stage 2. Where nobody touches, the closest pair tells for how long nobody can.
+    /// Stage 2, where somebody may touch: the lowest number behind.
     fn detect_collision(&mut self) {
-        let mut closest = f64::INFINITY;
-        for j in 0..self.drivers.len() {
-            let clearance = self.clearance(j);
-            closest = closest.min(clearance);
-            if clearance <= 0.0 {
-                let (ahead, lane) = (self.ring.ahead(j), self.ring.lane(j));
-                self.collision = Some(Collision { time: self.time(), behind: j, ahead, lane });
-                self.events.push(Event::Collision { behind: j, ahead, lane });
-                return;
-            }
+        if let Some(behind) = (0..self.drivers.len()).find(|&j| self.clearance(j) <= 0.0) {
+            let (ahead, lane) = (self.ring.ahead(behind), self.ring.lane(behind));
+            self.collision = Some(Collision { time: self.time(), behind, ahead, lane });
+            self.events.push(Event::Collision { behind, ahead, lane });
         }
-        self.clear_until = self.step + self.steps_until_contact(closest).max(1);
     }
 
     // ---- Acting ------------------------------------------------------------------------------------------------
@@ -529,7 +567,7 @@ impl<S: Sampler> Simulation<S> {
         }
         self.following.invalidate(j);
         self.following.invalidate(self.ring.behind(j));
-        self.clear_until = self.step;
+        self.clear_until = LOOK;
         self.ring.watch_all();
     }
 
@@ -537,13 +575,15 @@ impl<S: Sampler> Simulation<S> {
     fn know_drivers(&mut self) {
         self.following.find_common_law(&self.drivers);
         self.delays.find_common();
-        self.history.look_back(self.delays.longest_target());
+        // Longer at once, shorter with the next step only: another action of this step may bring back what this one
+        // took away.
+        let longest = self.delays.longest_target();
+        self.history.look_back(longest.max(self.history.looks_back()));
+        self.history_is_long = longest < self.history.looks_back();
         let dt = self.scenario.time_step;
         self.frustration_step.clear();
         self.frustration_step.extend(self.drivers.iter().map(|d| d.frustration_rate * dt));
-        self.top_speed = self.drivers.iter().map(|d| d.max_speed).fold(0.0, f64::max);
-        self.clear_until = self.step;
-        self.ring.watch_all();
+        self.clear_until = LOOK;
     }
 }
 
@@ -551,13 +591,5 @@ impl<S: Sampler> Simulation<S> {
 fn see_alike(offset: &[f64], leaders: &[u32], seen: &[f64], scene: &mut [f64]) {
     for (j, ((scene, offset), &leader)) in scene.iter_mut().zip(offset).zip(leaders).enumerate() {
         *scene = offset + (seen[leader as usize] - seen[j]);
-    }
-}
-
-/// Perceived headways of drivers each with a delay of their own.
-fn see_apart(offset: &[f64], leaders: &[u32], history: &History, delays: &Delays, scene: &mut [f64]) {
-    for (j, delay) in delays.all().iter().enumerate() {
-        let seen = history.seen(*delay as usize);
-        scene[j] = offset[j] + (seen[leaders[j] as usize] - seen[j]);
     }
 }

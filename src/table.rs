@@ -124,6 +124,16 @@ impl Table {
         out
     }
 
+    /// The same for a table that was computed from a scenario without a run; `how` says what was asked, in one line.
+    pub fn to_csv_computed(&self, scenario: &Scenario, how: &str) -> String {
+        let mut out = String::new();
+        let _ = writeln!(out, "{PROGRAM}{VERSION}");
+        let _ = writeln!(out, "{SCENARIO}{}", scenario.to_json());
+        let _ = writeln!(out, "{COMPUTED}{how}");
+        self.write_body(&mut out);
+        out
+    }
+
     /// Column meanings, column names and rows: all of the CSV below the lines that say what made it.
     pub fn write_body(&self, out: &mut String) {
         for column in &self.columns {
@@ -156,6 +166,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 const PROGRAM: &str = "# ringroad ";
 const SCENARIO: &str = "# scenario ";
 const MEASUREMENT: &str = "# measurement ";
+const COMPUTED: &str = "# computed ";
 
 /// What the header of a CSV file says about its making.
 #[derive(Clone, Debug, PartialEq)]
@@ -242,5 +253,30 @@ mod tests {
             Column::float("x", "", "x", vec![f64::NAN, 2.0]),
         ]));
         assert!(csv.ends_with("note,x\nplain,\n\"say \"\"a,b\"\"\",2\n"), "{csv}");
+    }
+
+    #[test]
+    fn the_header_says_what_made_the_file() {
+        let scenario = Scenario { vehicles: 20, seed: 7, ..Scenario::default() };
+        let measurement = Measurement::named("flow").unwrap();
+        let csv =
+            Table::new(vec![Column::whole("n", "", "a count", vec![1])]).to_csv(&scenario, &measurement);
+        assert!(csv.ends_with("# column n: a count\nn\n1\n"), "{csv}");
+        let read = Provenance::from_csv(&csv).unwrap();
+        assert_eq!((read.version.as_str(), &read.scenario), (VERSION, &scenario));
+        // Defaults that follow from the scenario are written out.
+        assert_eq!(read.measurement, Measurement::Flow { every: 1.0, window: 5.0, at: Some(500.0) });
+        assert_eq!(Provenance::version_of("# ringroad 9.8.7\nwhat nobody knows yet"), Ok("9.8.7"));
+        for (text, named) in [
+            ("", "“”"),
+            ("time_s,vehicle", "time_s,vehicle"),
+            ("# ringroad 0.1.0\na,b", "# scenario"),
+            ("# ringroad 0.1.0\n# scenario {\"vehicles\":0}\n# measurement {}", "vehicles"),
+            ("# ringroad 0.1.0\n# scenario {}\n# measurement {\"table\":\"x\"}", "measurement: table"),
+            ("# ringroad 0.1.0\nx\n# scenario {}\n# measurement {}", "# scenario"),
+        ] {
+            let message = Provenance::from_csv(text).unwrap_err().to_string();
+            assert!(message.starts_with("CSV header") && message.contains(named), "{message}");
+        }
     }
 }

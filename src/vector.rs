@@ -1,7 +1,7 @@
 //! Vectors as wide as the machine has them, chosen at run time; the one room with `unsafe` in it.
 //!
 //! A *kernel* is a plain loop over chunks of [`CHUNK`] numbers, which the compiler turns into vectors.
-//! [`kernel!`](crate::vector::kernel) compiles it once for each width that the target knows. All versions do the same
+//! `kernel!` compiles it once for each width that the target knows. All versions do the same
 //! operations on each number, each rounding once, so that results do not depend on the width: a test holds one
 //! against the other.
 

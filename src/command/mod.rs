@@ -10,6 +10,7 @@ mod presets;
 mod progress;
 mod replay;
 mod run;
+mod stability;
 mod summary;
 
 use clap::ArgMatches;
@@ -27,8 +28,8 @@ pub(crate) struct Subcommand {
 }
 
 /// Every subcommand, in the order in which the help shows them.
-const SUBCOMMANDS: [Subcommand; 4] =
-    [run::SUBCOMMAND, presets::SUBCOMMAND, parameters::SUBCOMMAND, replay::SUBCOMMAND];
+const SUBCOMMANDS: [Subcommand; 5] =
+    [run::SUBCOMMAND, stability::SUBCOMMAND, presets::SUBCOMMAND, parameters::SUBCOMMAND, replay::SUBCOMMAND];
 
 /// Why there is no result.
 #[derive(Debug)]

@@ -16,8 +16,8 @@ use std::process::ExitCode;
 /// `ringroad run`.
 pub(crate) const SUBCOMMAND: Subcommand = Subcommand { define, run };
 
-/// More memory than the rows of a run may take, bytes.
-const MEMORY: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
+/// More memory than the rows of a run may take, GiB; writing them takes about three times as much.
+const MEMORY: f64 = 4.0;
 
 fn define() -> Command {
     let command = Command::new("run")
@@ -81,12 +81,11 @@ fn measurement(matches: &ArgMatches) -> Result<Measurement, Failure> {
 
 /// Runs the scenario to its end and gives the table, with a progress bar on a terminal.
 pub(crate) fn tabulate(scenario: &Scenario, measurement: &Measurement) -> Result<Table, Failure> {
-    if measurement.bytes(scenario) > MEMORY {
-        let (gib, most) =
-            (measurement.bytes(scenario) / MEMORY * 8.0, MEMORY / 8.0 / 1024.0 / 1024.0 / 1024.0 * 8.0);
+    let gib = measurement.bytes(scenario) / (1024.0 * 1024.0 * 1024.0);
+    if gib > MEMORY {
         let allowed =
-            format!("at most {most} GiB: measure less often with --every, or fewer vehicles or bins");
-        return Err(Invalid::new("rows of the table", format!("{gib:.0} GiB"), allowed).into());
+            format!("at most {MEMORY} GiB: measure less often with --every, or fewer vehicles or bins");
+        return Err(Invalid::new("rows of the table", format!("{gib:.1} GiB"), allowed).into());
     }
     let mut probes = [measurement.probe(scenario)?];
     let mut simulation = Simulation::new(scenario)?;

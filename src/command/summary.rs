@@ -36,7 +36,8 @@ struct Collision {
 
 #[derive(Serialize)]
 struct Vehicle {
-    vehicle: usize,
+    #[serde(rename = "vehicle")]
+    number: usize,
     /// At the end.
     lane: usize,
     lane_changes: u32,
@@ -59,9 +60,12 @@ struct Neighbour {
     vehicle: Vehicle,
 }
 
-/// Vehicles whose drivers differ at the start, with their nearest neighbours in the adjacent lanes then:
-/// (vehicle, [(ahead or behind, lane, neighbour)]), indices from 0.
-pub(crate) struct Watched(Vec<(usize, Vec<(&'static str, usize, usize)>)>);
+/// Ahead or behind, in which lane, who.
+type Beside = (&'static str, usize, usize);
+
+/// Vehicles whose drivers differ at the start, with their nearest neighbours in the adjacent lanes then; indices
+/// from 0.
+pub(crate) struct Watched(Vec<(usize, Vec<Beside>)>);
 
 impl Watched {
     /// From the state at the start.
@@ -101,12 +105,12 @@ pub(crate) fn summary(simulation: &Simulation, watched: &Watched) -> String {
     let delays = (0..n).map(|j| simulation.delay_steps(j));
     let seconds = |steps: Option<usize>| steps.unwrap_or(0) as f64 * simulation.scenario().time_step;
     let vehicle = |j: usize| Vehicle {
-        vehicle: j + 1,
+        number: j + 1,
         lane: simulation.lane(j) + 1,
         lane_changes: simulation.lane_changes(j),
         distance_m: simulation.distance(j),
     };
-    let exceptional = |(j, neighbours): &(usize, Vec<(&'static str, usize, usize)>)| Exceptional {
+    let exceptional = |(j, neighbours): &(usize, Vec<Beside>)| Exceptional {
         vehicle: vehicle(*j),
         neighbours: neighbours
             .iter()

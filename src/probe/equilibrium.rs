@@ -24,15 +24,17 @@ struct Row {
 #[derive(Clone, Debug)]
 pub struct Equilibria {
     schedule: Schedule,
-    /// Drivers of the lane being looked at.
+    /// Speed laws of each lane's drivers when last looked at, and of the lane being looked at.
+    known: Vec<Option<Vec<Driver>>>,
     drivers: Vec<Driver>,
+    /// Time, lane, values.
     rows: Vec<(f64, usize, Row)>,
 }
 
 impl Equilibria {
     /// A look every so many steps.
     pub fn new(every: u64) -> Self {
-        Self { schedule: Schedule::new(every), drivers: Vec::new(), rows: Vec::new() }
+        Self { schedule: Schedule::new(every), known: Vec::new(), drivers: Vec::new(), rows: Vec::new() }
     }
 }
 
@@ -95,16 +97,25 @@ impl Probe for Equilibria {
             return;
         }
         let time = simulation.time();
+        let lanes = simulation.vehicles_per_lane().len();
+        self.known.resize(lanes, None);
         if due == Due::Again {
-            while self.rows.last().is_some_and(|row| row.0 == time) {
-                self.rows.pop();
-            }
+            self.rows.retain(|row| row.0 != time);
+            self.known.fill(None);
         }
-        for lane in 0..simulation.vehicles_per_lane().len() {
+        for lane in 0..lanes {
             self.drivers.clear();
             let in_lane = (0..simulation.vehicles()).filter(|&j| simulation.lane(j) == lane);
             self.drivers.extend(in_lane.map(|j| *simulation.driver(j)));
+            let alike = |known: &Vec<Driver>| {
+                known.len() == self.drivers.len()
+                    && known.iter().zip(&self.drivers).all(|(a, b)| law(a) == law(b))
+            };
+            if self.known[lane].as_ref().is_some_and(alike) {
+                continue;
+            }
             let row = values(&self.drivers, simulation.scenario().length);
+            self.known[lane].get_or_insert_default().clone_from(&self.drivers);
             let before = self.rows.iter().rev().find(|r| r.1 == lane);
             if !before.is_some_and(|(_, _, before)| same(before, &row)) {
                 self.rows.push((time, lane, row));

@@ -1,12 +1,13 @@
-//! Modal growth rates σ_q: the slope of ln|A_q(t)| in the linear regime, with its standard error.
+//! Modal growth rates σ_q: the slope of ln|A_q(t)| in the linear regime, with its standard error, beside what
+//! linear theory predicts.
 //!
 //! What is not linear in the motion of mode q is, to second order, the product of other modes: the speed law gives
 //! it at most the share `(λ/V)·mean(δ²)/A_q` of the linear part, and the growth rate an error of at most 2c·sin(πq/N)
 //! times that. So a weak mode leaves the linear regime while the strong ones are still in it.
 //!
 //! The linear window of a mode begins with the first state, from a given time on, where that share is small; it
-//! ends before the first where it is large, where the amplitude has sunk into rounding (positions of ten kilometres
-//! make headways good to about 10⁻¹² m), or where the lane is disturbed: by an action, or by a vehicle that changes
+//! ends before the first where it is large, where the amplitude has sunk into rounding (over ten kilometres it
+//! comes to some 10⁻¹¹ m), or where the lane is disturbed: by an action, or by a vehicle that changes
 //! lanes. In the window a mode of equal drivers is one complex exponential, as soon as what the start excited beside
 //! the leading root has died away.
 
@@ -14,6 +15,7 @@ use super::spectrum::Spectrum;
 use super::{Due, Probe, Schedule};
 use crate::fit;
 use crate::simulation::Simulation;
+use crate::stability::equal::{EqualRing, Time};
 use crate::table::{Column, Table};
 use std::ops::Range;
 
@@ -29,6 +31,9 @@ pub struct Growth {
     /// (λ/V)·mean(δ²), m; NaN where the lane was disturbed since the row before.
     second_order: Vec<f64>,
     amplitudes: Vec<Vec<f64>>,
+    /// The lane and its delay in force (s) at every row, where the drivers are equal.
+    theory: Vec<Option<(EqualRing, f64)>>,
+    time_step: f64,
 }
 
 const NOT_LINEAR: &str = "left the linear regime";
@@ -62,6 +67,8 @@ impl Growth {
             times: Vec::new(),
             second_order: Vec::new(),
             amplitudes: vec![Vec::new(); modes],
+            theory: Vec::new(),
+            time_step: f64::NAN,
         }
     }
 
@@ -77,6 +84,14 @@ impl Growth {
         } else {
             None
         }
+    }
+
+    /// The growth rate that the difference equation gives the mode at the end of its window; NaN of drivers that
+    /// differ, whose modes are not Fourier's, and where there is no such mode.
+    fn predicted(&self, mode: usize, window: &Range<usize>) -> f64 {
+        let last = window.clone().next_back().and_then(|row| self.theory[row]);
+        last.filter(|(ring, _)| ring.modes().contains(&(mode + 1)))
+            .map_or(f64::NAN, |(ring, delay)| ring.root(mode + 1, delay, Time::Steps(self.time_step)).re)
     }
 
     /// The rows of a mode's linear window, and what ended it.
@@ -110,6 +125,9 @@ impl Probe for Growth {
             && !replaced.is_some_and(f64::is_nan)
             && !acted(simulation, self.times.last().copied().unwrap_or(0.0));
         self.times.push(simulation.time());
+        self.theory.truncate(rows);
+        self.theory.push(self.spectrum.equal_drivers(simulation));
+        self.time_step = simulation.scenario().time_step;
         self.second_order.push(if same || rows == 0 { self.spectrum.second_order } else { f64::NAN });
         for (column, &amplitude) in self.amplitudes.iter_mut().zip(&self.spectrum.amplitudes) {
             column.truncate(rows);
@@ -121,8 +139,10 @@ impl Probe for Growth {
         let modes = self.amplitudes.len();
         let (mut rates, mut errors, mut from, mut to) = (vec![], vec![], vec![], vec![]);
         let (mut first, mut last, mut points, mut ends) = (vec![], vec![], vec![], vec![]);
+        let mut predicted = vec![];
         for mode in 0..modes {
             let (window, end) = self.window(mode);
+            predicted.push(self.predicted(mode, &window));
             let amplitudes = &self.amplitudes[mode][window.clone()];
             let times = &self.times[window];
             let logarithms: Vec<_> = times.iter().zip(amplitudes).map(|(&t, &a)| (t, libm::log(a))).collect();
@@ -142,6 +162,12 @@ impl Probe for Growth {
             Column::whole("mode", "", "Fourier mode q: waves round the ring", (1..=modes as u64).collect()),
             Column::float("growth_rate_per_s", "1/s", "slope of ln|amplitude| in the linear window", rates),
             Column::float("standard_error_per_s", "1/s", "standard error of the slope", errors),
+            Column::float(
+                "predicted_per_s",
+                "1/s",
+                "growth rate by linear theory, for the steps and the delay in force; none of drivers that differ",
+                predicted,
+            ),
             Column::float("from_s", "s", "start of the linear window", from),
             Column::float("to_s", "s", "end of the linear window", to),
             Column::float("first_amplitude_m", "m", "amplitude at the start of the window", first),

@@ -2,6 +2,7 @@
 
 use crate::driver::{Driver, equilibrium};
 use crate::simulation::Simulation;
+use crate::stability::equal::EqualRing;
 
 /// Amplitudes of the modes of δ_k = h_k − h_k(v∞), where k counts the vehicles of the lane downstream:
 /// `A_q = (2/n)·|Σ_k δ_k·e^{2πi·qk/n}|`, half of that for q = n/2; so a wave of ±1 m has amplitude 1 m.
@@ -67,6 +68,21 @@ impl Spectrum {
             self.amplitudes[q - 1] = scale * libm::hypot(real, imaginary);
         }
         same
+    }
+
+    /// The lane read last as linear theory sees it, and the delay (s) in force, where its drivers are equal now.
+    pub(super) fn equal_drivers(&self, simulation: &Simulation) -> Option<(EqualRing, f64)> {
+        let (&j, first) = (self.order.first()?, self.drivers.first()?);
+        let steps = simulation.delay_steps(j);
+        let equal = self
+            .order
+            .iter()
+            .zip(&self.drivers)
+            .all(|(&i, driver)| law(driver) == law(first) && simulation.delay_steps(i) == steps);
+        let scenario = simulation.scenario();
+        let vehicles = self.order.len();
+        let slope = first.slope(scenario.length / vehicles as f64);
+        equal.then_some((EqualRing { vehicles, slope }, steps as f64 * scenario.time_step))
     }
 
     fn deviations<'a>(&'a self, simulation: &'a Simulation) -> impl Iterator<Item = f64> + 'a {

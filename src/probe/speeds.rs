@@ -10,14 +10,14 @@ pub struct Speeds {
     schedule: Schedule,
     times: Vec<f64>,
     /// Index of each vehicle and its speeds.
-    speeds: Vec<(usize, Vec<f64>)>,
+    of: Vec<(usize, Vec<f64>)>,
 }
 
 impl Speeds {
     /// Rows every so many steps, for vehicles given by their numbers from 1.
     pub fn new(every: u64, numbers: &[usize]) -> Self {
-        let speeds = numbers.iter().map(|n| (n - 1, Vec::new())).collect();
-        Self { schedule: Schedule::with_collision(every), times: Vec::new(), speeds }
+        let of = numbers.iter().map(|n| (n - 1, Vec::new())).collect();
+        Self { schedule: Schedule::with_collision(every), times: Vec::new(), of }
     }
 }
 
@@ -32,7 +32,7 @@ impl Probe for Speeds {
         }
         let rows = self.times.len();
         self.times.push(simulation.time());
-        for (j, speeds) in &mut self.speeds {
+        for (j, speeds) in &mut self.of {
             speeds.truncate(rows);
             speeds.push(simulation.speed(*j));
         }
@@ -40,7 +40,7 @@ impl Probe for Speeds {
 
     fn table(&self) -> Table {
         let mut columns = vec![Column::float("time_s", "s", "time", self.times.clone())];
-        columns.extend(self.speeds.iter().map(|(j, speeds)| {
+        columns.extend(self.of.iter().map(|(j, speeds)| {
             let n = j + 1;
             Column::float(format!("v_{n}_m_per_s"), "m/s", format!("speed of vehicle {n}"), speeds.clone())
         }));

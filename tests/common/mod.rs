@@ -1,6 +1,9 @@
 //! What several tests need: Fourier modes of a run, and the theory that they are held against.
 #![allow(dead_code)] // each test uses its part
 
+pub mod scenarios;
+pub mod twin;
+
 use ringroad::scenario::Scenario;
 use ringroad::simulation::Simulation;
 use std::f64::consts::PI;

@@ -1,0 +1,71 @@
+//! Cost of the linear theory: the report that the page asks for at every move of a slider, the curves of the stability
+//! plane, and the map of growth rates.
+//!
+//! `cargo bench --bench stability`
+
+#[cfg(target_arch = "wasm32")]
+fn main() {}
+
+#[cfg(not(target_arch = "wasm32"))]
+mod cases {
+    use criterion::Criterion;
+    use ringroad::scenario::Scenario;
+    use ringroad::stability::calm::{calm_with, parse_changes};
+    use ringroad::stability::equal::Time;
+    use ringroad::stability::plane::{critical_of_modes, curves, growth_rates};
+    use ringroad::stability::report::Report;
+    use std::hint::black_box;
+
+    fn scenario(vehicles: usize, exceptions: &[&str]) -> Scenario {
+        let mut scenario = Scenario { vehicles, ..Scenario::default() };
+        scenario.driver.reaction_time = 0.75;
+        scenario.exceptions = exceptions.iter().map(|text| text.parse().unwrap()).collect();
+        scenario
+    }
+
+    pub(crate) fn all(criterion: &mut Criterion) {
+        for vehicles in [50, 133] {
+            let scenario = scenario(vehicles, &[]);
+            criterion.bench_function(&format!("report, {vehicles} equal drivers"), |b| {
+                b.iter(|| black_box(Report::of(&scenario)));
+            });
+        }
+        let large = Scenario { vehicles: 1_000_000, length: 2e7, ..scenario(50, &[]) };
+        criterion
+            .bench_function("report, a million equal drivers", |b| b.iter(|| black_box(Report::of(&large))));
+        for vehicles in [50, 133] {
+            let scenario = scenario(vehicles, &["10%:reaction-time=0"]);
+            criterion.bench_function(&format!("report, {vehicles} drivers of two kinds"), |b| {
+                b.iter(|| black_box(Report::of(&scenario)));
+            });
+        }
+        let scenario = scenario(50, &[]);
+        criterion.bench_function("curves of the plane, every mode, N = 2 … 133", |b| {
+            b.iter(|| {
+                let modes: Vec<_> = (2..=133).map(|n| critical_of_modes(&scenario, n)).collect();
+                black_box((curves(&scenario, 2..=133), modes))
+            });
+        });
+        let delays: Vec<_> = (0..200).map(|k| f64::from(k) * 0.0075).collect();
+        for (name, time) in [("continuous", Time::Continuous), ("in steps", Time::Steps(0.01))] {
+            criterion.bench_function(&format!("map of growth rates, N = 2 … 133 by 200, {name}"), |b| {
+                b.iter(|| {
+                    (2..=133)
+                        .map(|n| growth_rates(&scenario, n, black_box(&delays), time))
+                        .collect::<Vec<_>>()
+                });
+            });
+        }
+        let changes = parse_changes("reaction-time=0").unwrap();
+        criterion.bench_function("how many calm drivers, N = 50", |b| {
+            b.iter(|| black_box(calm_with(&scenario, &changes).unwrap()));
+        });
+    }
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+fn main() {
+    let mut criterion = criterion::Criterion::default().sample_size(10).configure_from_args();
+    cases::all(&mut criterion);
+    criterion.final_summary();
+}

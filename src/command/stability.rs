@@ -1,0 +1,201 @@
+//! `ringroad stability`: what linear theory says of a scenario, without running it.
+
+use super::options::{scenario, scenario_options};
+use super::output::{self, Output};
+use super::{Failure, Subcommand};
+use clap::{Arg, ArgAction, ArgMatches, Command};
+use ringroad::error::Invalid;
+use ringroad::scenario::Scenario;
+use ringroad::stability::calm::{Calming, calm_with, parse_changes};
+use ringroad::stability::equal::Time;
+use ringroad::stability::inverse::{most_vehicles, stable_sensitivities, stable_vehicles};
+use ringroad::stability::plane::{Sweep, sweep};
+use ringroad::stability::report::{ModeRoot, Report, leading_roots};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::process::ExitCode;
+
+/// `ringroad stability`.
+pub(crate) const SUBCOMMAND: Subcommand = Subcommand { define, run };
+
+fn define() -> Command {
+    let command = Command::new("stability")
+        .about("Linear stability of a scenario: critical reaction time, growth rates, the fastest wave")
+        .after_help(
+            "Examples: ringroad stability --reaction-time 0.75 --calm-with reaction-time=0\n          \
+             ringroad stability --sweep vehicles=2:133 --out tau.csv",
+        )
+        .arg(output::option())
+        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("As JSON"))
+        .arg(
+            Arg::new("sweep")
+                .long("sweep")
+                .value_name("PARAMETER=FROM:TO[:STEP]")
+                .conflicts_with_all(["json", "roots", "calm-with"])
+                .help("A table over the values of a parameter as CSV, such as vehicles=2:133"),
+        )
+        .arg(
+            Arg::new("roots")
+                .long("roots")
+                .value_name("K")
+                .help("Add the K leading characteristic roots of every mode (continuous time)"),
+        )
+        .arg(
+            Arg::new("calm-with")
+                .long("calm-with")
+                .value_name("PARAMETER=VALUE,…")
+                .help("How many drivers, so changed, calm the ring? Such as reaction-time=0"),
+        );
+    scenario_options(command)
+}
+
+/// Everything that was asked.
+#[derive(Serialize)]
+struct Answer {
+    #[serde(flatten)]
+    report: Report,
+    /// Numbers of vehicles in one lane of default drivers, intervals with both ends.
+    stable_vehicles: Vec<(usize, usize)>,
+    /// Sensitivities of equal drivers, otherwise the default one, as many as in the lane of the report; 1/s.
+    stable_sensitivities_per_s: Vec<(f64, f64)>,
+    #[serde(flatten)]
+    calming: Option<Calming>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roots: Option<Vec<ModeRoot>>,
+}
+
+fn answer(scenario: &Scenario, calm: Option<&String>, roots: Option<usize>) -> Result<Answer, Failure> {
+    let report = Report::of(scenario);
+    let calming = match calm {
+        Some(text) => Some(calm_with(scenario, &parse_changes(text)?)?),
+        None => None,
+    };
+    let driver = &scenario.driver;
+    let delay = scenario.steps(driver.reaction_time) as f64 * scenario.time_step;
+    let time = Time::Steps(scenario.time_step);
+    let most = most_vehicles(driver, scenario.length);
+    Ok(Answer {
+        stable_vehicles: stable_vehicles(driver, scenario.length, delay, time, most),
+        stable_sensitivities_per_s: stable_sensitivities(
+            driver,
+            report.vehicles,
+            scenario.length,
+            delay,
+            time,
+        ),
+        calming,
+        roots: roots.map(|count| leading_roots(scenario, report.lane - 1, count)),
+        report,
+    })
+}
+
+fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
+    let scenario = scenario(matches)?;
+    let output = Output::new(matches)?;
+    if let Some(text) = matches.get_one::<String>("sweep") {
+        let asked: Sweep = text.parse().map_err(|e: Invalid| e.within("--sweep"))?;
+        let table = sweep(&scenario, &asked)?;
+        output.write(&table.to_csv_computed(&scenario, &format!("stability --sweep {text}")))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let roots =
+        match matches.get_one::<String>("roots") {
+            None => None,
+            Some(text) => Some(text.parse().ok().filter(|k| (1..=100).contains(k)).ok_or_else(|| {
+                Invalid::new("--roots", format!("“{text}”"), "a whole number from 1 to 100")
+            })?),
+        };
+    let answer = answer(&scenario, matches.get_one("calm-with"), roots)?;
+    let text = if matches.get_flag("json") {
+        serde_json::to_string_pretty(&answer).expect("plain data") + "\n"
+    } else {
+        in_words(&scenario, &answer)
+    };
+    output.write(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A line of a name and what there is to say.
+fn line(text: &mut String, name: &str, value: &str) {
+    let _ = writeln!(text, "{name:<34}{value}");
+}
+
+fn in_words(scenario: &Scenario, answer: &Answer) -> String {
+    let report = &answer.report;
+    let mut text = report.verdict() + "\n\n";
+    let seconds = |x: Option<f64>| x.map_or("none".to_owned(), |x| format!("{x:.6} s"));
+    let rate = |x: Option<f64>, mode: Option<usize>| match (x, mode) {
+        (Some(x), Some(q)) => format!("{x:+.6} 1/s, mode {q}"),
+        (Some(x), None) => format!("{x} 1/s"),
+        _ => "none".to_owned(),
+    };
+    if scenario.lanes > 1 {
+        line(&mut text, "least stable lane", &report.lane.to_string());
+    }
+    let kind = if report.equal_drivers { "equal drivers" } else { "drivers that differ" };
+    line(&mut text, "vehicles", &format!("{}, {kind}", report.vehicles));
+    line(
+        &mut text,
+        "equilibrium",
+        &format!("{:.4} m/s at {:.4} m", report.equilibrium_speed_m_per_s, report.mean_headway_m),
+    );
+    line(&mut text, "slope of speed against headway", &format!("{:.6} 1/s", report.slope_per_s));
+    line(&mut text, "critical reaction time", &seconds(report.critical_reaction_time_s));
+    let steps = format!("  in steps of {} s", scenario.time_step);
+    line(&mut text, &steps, &seconds(report.critical_reaction_time_discrete_s));
+    line(&mut text, "  Newell's limit of long waves", &seconds(report.newell_limit_s));
+    line(&mut text, "largest growth rate", &rate(report.max_growth_rate_per_s, report.fastest_mode));
+    line(&mut text, &steps, &rate(report.max_growth_rate_discrete_per_s, report.fastest_mode_discrete));
+    if let Some(wave) = report.wave {
+        let along = if wave.speed_m_per_s < 0.0 { "upstream" } else { "downstream" };
+        line(
+            &mut text,
+            "its wave",
+            &format!(
+                "{:.2} m ({:.2} vehicles) long, {:.3} m/s {along} on the road, {:.3} m/s upstream past the vehicles",
+                wave.wavelength_m,
+                wave.wavelength_vehicles,
+                wave.speed_m_per_s.abs(),
+                -wave.speed_relative_to_vehicles_m_per_s
+            ),
+        );
+    }
+    if report.all_roots_found == Some(false) {
+        line(&mut text, "note", "the argument principle counts more growing roots than were followed");
+    }
+    if !report.equal_drivers {
+        let scale = report.critical_scale_discrete.map_or("none".to_owned(), |x| format!("{x:.6}"));
+        line(&mut text, "critical scale of reaction times", &scale);
+    }
+    let joined = |parts: Vec<String>| if parts.is_empty() { "none".to_owned() } else { parts.join(", ") };
+    let vehicles = answer.stable_vehicles.iter().map(|(a, b)| format!("{a} … {b}")).collect();
+    line(&mut text, "stable numbers of vehicles a lane", &joined(vehicles));
+    let sensitivities = answer.stable_sensitivities_per_s.iter().map(|(a, b)| format!("{a:.4} … {b:.4}"));
+    line(&mut text, "stable sensitivities", &format!("{} 1/s", joined(sensitivities.collect())));
+    if let Some(calming) = &answer.calming {
+        let number = calming.smallest_calming_number;
+        let said =
+            number.map_or("no number calms the ring".to_owned(), |n| format!("{n} of {}", calming.vehicles));
+        line(&mut text, "calming drivers needed", &said);
+        let last = number.unwrap_or(calming.vehicles);
+        let rates = calming.numbers.iter().zip(&calming.max_growth_rates_discrete_per_s);
+        for (n, rate) in rates.filter(|(n, _)| **n <= last) {
+            line(&mut text, &format!("  growth rate with {n}"), &format!("{rate:+.6} 1/s"));
+        }
+    }
+    if let Some(roots) = &answer.roots {
+        let _ = writeln!(
+            text,
+            "\n{:>6}{:>8}{:>16}{:>16}{:>12}",
+            "mode", "branch", "real (1/s)", "imaginary", "residual"
+        );
+        for root in roots {
+            let _ = writeln!(
+                text,
+                "{:>6}{:>8}{:>16.9}{:>16.9}{:>12.1e}",
+                root.mode, root.branch, root.real_per_s, root.imaginary_per_s, root.residual
+            );
+        }
+    }
+    text
+}

@@ -1,0 +1,106 @@
+//! `ringroad stability`, run as a person runs it.
+#![cfg(feature = "command")]
+
+use serde_json::Value;
+use std::process::{Command, Output};
+
+fn ringroad(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ringroad"));
+    command.arg("stability").args(arguments).output().unwrap()
+}
+
+fn answer(arguments: &[&str]) -> String {
+    let output = ringroad(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&answer(&[arguments, &["--json"]].concat())).unwrap()
+}
+
+fn refusal(arguments: &[&str]) -> String {
+    let output = ringroad(arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    assert!(output.stdout.is_empty());
+    String::from_utf8(output.stderr).unwrap()
+}
+
+/// The values of the model's specification.
+#[test]
+fn json_has_the_thresholds() {
+    let report = json(&["--reaction-time", "0.75"]);
+    let number = |name: &str| report[name].as_f64().unwrap();
+    assert!((number("critical_reaction_time_s") - 0.683_869).abs() < 5e-7);
+    assert!((number("critical_reaction_time_discrete_s") - 0.678_869).abs() < 5e-7);
+    assert!(number("max_growth_rate_per_s") > 0.0 && number("max_growth_rate_discrete_per_s") > 0.0);
+    assert_eq!((&report["stable"], &report["fastest_mode_discrete"]), (&false.into(), &8.into()));
+    assert!(report["fastest_mode"].is_u64());
+    assert!(report.get("smallest_calming_number").is_none() && report.get("roots").is_none());
+    let at = |reaction_time: &str| json(&["--reaction-time", reaction_time])["stable"].clone();
+    assert_eq!((at("0.67"), at("0.68")), (true.into(), false.into()));
+    let coarse = json(&["--time-step", "0.05"]);
+    assert!((coarse["critical_reaction_time_discrete_s"].as_f64().unwrap() - 0.658_868).abs() < 5e-7);
+}
+
+#[test]
+fn infinite_thresholds_are_null_and_said_in_words() {
+    for arguments in [["--vehicles", "1"], ["--vehicles", "150"]] {
+        let report = json(&arguments);
+        assert!(report["critical_reaction_time_s"].is_null() && report["stable"] == true, "{report}");
+        assert!(report["critical_reaction_time_discrete_s"].is_null());
+    }
+    assert!(answer(&["--vehicles", "150"]).starts_with("A jam"));
+    assert!(answer(&["--vehicles", "1"]).starts_with("One vehicle alone"));
+}
+
+#[test]
+fn five_calm_drivers_are_enough() {
+    let report = json(&["--reaction-time", "0.75", "--calm-with", "reaction-time=0"]);
+    assert_eq!(report["smallest_calming_number"], 5);
+    assert_eq!(report["calming_numbers"].as_array().unwrap().len(), 51);
+    assert!(report["calming_growth_rates_discrete_per_s"][4].as_f64().unwrap() > 0.0);
+    assert!(report["calming_growth_rates_discrete_per_s"][5].as_f64().unwrap() < 0.0);
+    let never = json(&["--reaction-time", "0.75", "--calm-with", "reaction-time=0.74"]);
+    assert!(never.get("smallest_calming_number").is_some_and(Value::is_null));
+    let words = answer(&["--reaction-time", "0.75", "--calm-with", "reaction-time=0"]);
+    assert!(words.contains("unstable") && words.contains("5 of 50"), "{words}");
+}
+
+#[test]
+fn roots_come_mode_by_mode() {
+    let report = json(&["--reaction-time", "0.75", "--roots", "4"]);
+    let roots = report["roots"].as_array().unwrap();
+    assert_eq!(roots.len(), 100);
+    assert!(roots.iter().all(|root| root["residual"].as_f64().unwrap() < 1e-10));
+    let largest = roots.iter().map(|root| root["real_per_s"].as_f64().unwrap()).fold(f64::MIN, f64::max);
+    assert_eq!(report["max_growth_rate_per_s"].as_f64().unwrap(), largest);
+    let mixed = json(&["--reaction-time", "0.75", "--driver", "1-9:reaction-time=0", "--roots", "2"]);
+    assert!(mixed["roots"].as_array().unwrap().len() >= 25);
+}
+
+#[test]
+fn a_sweep_is_a_table() {
+    let csv = answer(&["--sweep", "vehicles=2:133"]);
+    assert!(csv.starts_with("# ringroad ") && csv.contains("\n# scenario {"));
+    let rows: Vec<_> = csv.lines().filter(|l| !l.starts_with('#')).collect();
+    assert_eq!(rows.len(), 133);
+    assert!(rows[0].starts_with("vehicles,critical_reaction_time_s,critical_reaction_time_discrete_s"));
+    assert!(rows[49].starts_with("50,0.68386"), "{}", rows[49]);
+}
+
+#[test]
+fn bad_input_is_refused_by_name() {
+    for (arguments, words) in [
+        (&["--sweep", "cars=2:133"][..], "sweep"),
+        (&["--sweep", "vehicles=2:250"], "vehicles=200"),
+        (&["--roots", "0"], "--roots"),
+        (&["--roots", "many"], "many"),
+        (&["--calm-with", "reaction-time=-1"], "reaction-time"),
+        (&["--calm-with", "vehicles=3"], "vehicles"),
+        (&["--vehicles", "0"], "vehicles"),
+    ] {
+        let message = refusal(arguments);
+        assert!(message.contains(words), "{arguments:?}: {message}");
+    }
+}

@@ -1,0 +1,220 @@
+//! Linear theory against simulation: growth rates mode by mode, equal drivers and drivers that differ.
+
+use nalgebra::{DMatrix, DVector};
+use ringroad::driver::{Driver, equilibrium};
+use ringroad::fit;
+use ringroad::probe::growth::{Growth, Linear};
+use ringroad::probe::{Probe, measure};
+use ringroad::scenario::Scenario;
+use ringroad::simulation::Simulation;
+use ringroad::stability::Complex64;
+use ringroad::stability::calm::{calm_with, parse_changes};
+use ringroad::stability::equal::{EqualRing, Mode, Time};
+use ringroad::stability::report::Report;
+use ringroad::stability::ring::{Ring, slopes};
+
+/// Within 1 % or three standard errors.
+fn agrees(measured: f64, error: f64, predicted: f64) -> bool {
+    let difference = (measured - predicted).abs();
+    difference <= 0.01 * predicted.abs() || difference <= 3.0 * error
+}
+
+/// Growth rates of modes 1 … `modes` with standard errors and numbers of points, after a nudge of vehicle 1. What the
+/// start excites beside the leading roots dies within ten delays.
+fn measured(
+    reaction_time: f64,
+    modes: usize,
+    nudge: f64,
+    until: f64,
+    linear: Linear,
+) -> Vec<(f64, f64, u64)> {
+    let mut scenario = Scenario { until, ..Scenario::default() };
+    scenario.driver.reaction_time = reaction_time;
+    scenario.actions.push(format!("at=0:1:nudge={nudge}").parse().unwrap());
+    let from = scenario.steps(1.0 + 10.0 * reaction_time);
+    let mut probes: [Box<dyn Probe>; 1] = [Box::new(Growth::new(10, modes, 0, from, linear))];
+    measure(&mut Simulation::new(&scenario).unwrap(), &mut probes, &mut |_| true);
+    let table = probes[0].table();
+    let rates = table.floats("growth_rate_per_s").unwrap();
+    let errors = table.floats("standard_error_per_s").unwrap();
+    let points = table.wholes("points").unwrap();
+    // The table carries the theory beside the measurement.
+    let ring = EqualRing { vehicles: 50, slope: Driver::default().slope(20.0) };
+    for (k, &predicted) in table.floats("predicted_per_s").unwrap().iter().enumerate() {
+        let root = ring.root(k + 1, reaction_time, Time::Steps(0.01));
+        assert!(points[k] == 0 || (predicted - root.re).abs() < 1e-12);
+    }
+    (0..modes).map(|k| (rates[k], errors[k], points[k])).collect()
+}
+
+/// N = 50, Δ from 0 to 0.8 s: modes 1–10 where the ring is stable, all growing modes where it is not.
+#[test]
+fn every_mode_grows_as_the_difference_equation_says() {
+    let ring = EqualRing { vehicles: 50, slope: Driver::default().slope(20.0) };
+    let (mut compared, mut left_out) = (0, 0);
+    for k in 0..=16 {
+        let reaction_time = f64::from(k) * 0.05;
+        let predicted: Vec<_> =
+            ring.modes().map(|q| ring.root(q, reaction_time, Time::Steps(0.01)).re).collect();
+        let stable = predicted.iter().all(|rate| *rate < 0.0);
+        // Weak nudges for what changes slowly: what is not linear stays small; strong ones for what fades
+        // fast, which would sink into rounding.
+        let (weak, strong) = if stable {
+            (
+                measured(reaction_time, 10, 2e-5, 600.0, Linear { smallest: 1e-10, nonlinearity: 1e-5 }),
+                measured(reaction_time, 10, 1e-3, 200.0, Linear { smallest: 1e-10, nonlinearity: 1e-3 }),
+            )
+        } else {
+            let linear = Linear { smallest: 1e-10, nonlinearity: 3e-6 };
+            (measured(reaction_time, 25, 1e-6, 300.0, linear), Vec::new())
+        };
+        for (k, &predicted) in predicted.iter().enumerate() {
+            if (stable && k >= 10) || (!stable && predicted <= 0.0) {
+                continue;
+            }
+            let (rate, error, points) = if stable && predicted < -0.03 { strong[k] } else { weak[k] };
+            if points < 20 {
+                println!("Δ = {reaction_time:.2} s, mode {}: left out, {points} points", k + 1);
+                left_out += 1;
+                continue;
+            }
+            compared += 1;
+            assert!(
+                agrees(rate, error, predicted),
+                "Δ = {reaction_time:.2} s, mode {}: measured {rate} ± {error} ({points} points), theory {predicted}",
+                k + 1
+            );
+        }
+    }
+    println!("{compared} growth rates compared, {left_out} left out");
+    assert!(compared > 150 && left_out * 5 < compared + left_out);
+}
+
+/// A ring with exceptions that starts in equilibrium (the nudges lead there from equal headways), but for
+/// displacements of some micrometres, different for everybody, so that every mode is excited.
+fn mixed(vehicles: usize, reaction_time: f64, exceptions: &[String]) -> Scenario {
+    let mut scenario =
+        Scenario { vehicles, length: 20.0 * vehicles as f64, until: 400.0, ..Scenario::default() };
+    scenario.driver.reaction_time = reaction_time;
+    scenario.exceptions = exceptions.iter().map(|text| text.parse().unwrap()).collect();
+    let drivers = scenario.drivers();
+    let speed = equilibrium(&drivers, scenario.length).unwrap().speed;
+    let mut displacement = 0.0;
+    for (j, driver) in drivers.iter().enumerate() {
+        let metres = displacement + 1e-6 * libm::sin((j * j) as f64);
+        scenario.actions.push(format!("at=0:{}:nudge={metres}", j + 1).parse().unwrap());
+        displacement += driver.headway(speed) - 20.0;
+    }
+    scenario
+}
+
+/// The dominant mode by theory; and its growth measured, with the standard error.
+///
+/// The pattern of mode q is v_{j+1} = u_j·v_j; the headways are taken apart into the patterns of all modes
+/// (after what the start excites beside their leading roots has died), and the slope of ln|amplitude| of the dominant one is
+/// fitted. If theory had the pattern wrong, that amplitude would not be an exponential.
+fn dominant(scenario: &Scenario) -> (Mode, f64, f64) {
+    let (n, time) = (scenario.vehicles, Time::Steps(scenario.time_step));
+    let drivers = scenario.drivers();
+    let slopes = slopes(&drivers, scenario.length);
+    let delays: Vec<_> =
+        drivers.iter().map(|d| scenario.steps(d.reaction_time) as f64 * scenario.time_step).collect();
+    let ring = Ring::new(slopes.iter().copied().zip(delays.iter().copied()));
+    let mut modes = ring.followed(time).modes;
+    modes.dedup_by_key(|m| m.mode);
+    assert_eq!(modes.len(), n / 2);
+    let mut patterns = DMatrix::<Complex64>::zeros(n, n - 1);
+    let mut column = 0;
+    for mode in &modes {
+        let s = mode.root;
+        let conjugates = if 2 * mode.mode == n { 1 } else { 2 };
+        let mut v = Complex64::ONE;
+        for j in 0..n {
+            let turn = Complex64::new(libm::cos(s.im * delays[j]), libm::sin(s.im * delays[j]));
+            let power = turn * ringroad::exp::exp(s.re * delays[j]);
+            let step =
+                Complex64::new(libm::cos(s.im * scenario.time_step), libm::sin(s.im * scenario.time_step))
+                    * ringroad::exp::exp(s.re * scenario.time_step);
+            let u = 1.0 + (step - 1.0) / scenario.time_step * power / slopes[j];
+            patterns[(j, column)] = (u - 1.0) * v;
+            if conjugates == 2 {
+                patterns[(j, column + 1)] = patterns[(j, column)].conj();
+            }
+            v *= u;
+        }
+        // Once round, the pattern comes back to itself.
+        assert!((v - 1.0).norm_sqr() < 1e-12, "{mode:?}: {v}");
+        column += conjugates;
+    }
+    assert_eq!(column, n - 1);
+    // The sum of all headway deviations is 0, so one equation says nothing new.
+    let solver = patterns.rows(0, n - 1).into_owned().lu();
+    let fastest = ring.fastest(time).unwrap();
+    let place = 2 * (fastest.mode - 1);
+
+    let speed = equilibrium(&drivers, scenario.length).unwrap().speed;
+    let mut simulation = Simulation::new(scenario).unwrap();
+    let mut points = Vec::new();
+    simulation.run_to(scenario.steps(60.0));
+    while !simulation.is_finished() {
+        let deviations = DVector::from_fn(n - 1, |j, _| {
+            Complex64::new(simulation.headway(j) - drivers[j].headway(speed), 0.0)
+        });
+        let amplitude = solver.solve(&deviations).unwrap()[place];
+        points.push((simulation.time(), libm::log(libm::hypot(amplitude.re, amplitude.im))));
+        simulation.run_to(simulation.step_index() + scenario.steps(1.0));
+    }
+    let line = fit::line(&points).unwrap();
+    (fastest, line.slope, line.slope_error)
+}
+
+/// Numbers of `count` vehicles among `vehicles`: side by side, or spread out.
+fn who(count: usize, vehicles: usize, in_a_block: bool, values: &str) -> Vec<String> {
+    if in_a_block {
+        return vec![format!("1-{count}:{values}")];
+    }
+    (0..count).map(|k| format!("{}:{values}", 1 + k * vehicles / count)).collect()
+}
+
+#[test]
+fn the_dominant_mode_of_mixed_rings_grows_as_the_product_equation_says() {
+    for (vehicles, reaction_time, count, values) in [
+        (50, 0.75, 4, "reaction-time=0"),
+        (51, 0.75, 10, "reaction-time=0.2"),
+        (50, 0.6, 25, "reaction-time=0.9"),
+        (51, 0.6, 10, "sensitivity=2"),
+        (50, 0.8, 15, "sensitivity=0.5"),
+        (33, 0.7, 8, "sensitivity=1.5,reaction-time=0.5"),
+        (50, 0.65, 12, "sensitivity=1.6,reaction-time=0.8,max-speed=35,min-headway=9"),
+    ] {
+        for in_a_block in [true, false] {
+            let scenario = mixed(vehicles, reaction_time, &who(count, vehicles, in_a_block, values));
+            let (mode, rate, error) = dominant(&scenario);
+            println!(
+                "{values}, {count} of {vehicles}, block {in_a_block}: {mode:?}, {rate:+.6} ± {error:.1e}"
+            );
+            assert!(
+                agrees(rate, error, mode.root.re),
+                "{values}, {count} of {vehicles}, block {in_a_block}: measured {rate} ± {error}, theory {mode:?}"
+            );
+        }
+    }
+}
+
+/// The classroom's question: at N = 50, Δ = 0.75 s five drivers without delay calm the ring and four do not, wherever
+/// they drive. Theory and simulation.
+#[test]
+fn five_calm_drivers_calm_the_ring_wherever_they_are() {
+    let mut scenario = Scenario::default();
+    scenario.driver.reaction_time = 0.75;
+    let calming = calm_with(&scenario, &parse_changes("reaction-time=0").unwrap()).unwrap();
+    assert_eq!(calming.smallest_calming_number, Some(5));
+    for in_a_block in [true, false] {
+        for (count, stable) in [(4, false), (5, true)] {
+            let scenario = mixed(50, 0.75, &who(count, 50, in_a_block, "reaction-time=0"));
+            assert_eq!(Report::of(&scenario).stable, stable);
+            let (_, rate, _) = dominant(&scenario);
+            assert_eq!(rate < 0.0, stable, "{count} calm drivers, block {in_a_block}: {rate}");
+        }
+    }
+}
