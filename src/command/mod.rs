@@ -9,6 +9,7 @@ mod parameters;
 mod presets;
 mod progress;
 mod replay;
+mod reproduce;
 mod run;
 mod stability;
 mod summary;
@@ -28,8 +29,14 @@ pub(crate) struct Subcommand {
 }
 
 /// Every subcommand, in the order in which the help shows them.
-const SUBCOMMANDS: [Subcommand; 5] =
-    [run::SUBCOMMAND, stability::SUBCOMMAND, presets::SUBCOMMAND, parameters::SUBCOMMAND, replay::SUBCOMMAND];
+const SUBCOMMANDS: &[Subcommand] = &[
+    run::SUBCOMMAND,
+    stability::SUBCOMMAND,
+    reproduce::SUBCOMMAND,
+    presets::SUBCOMMAND,
+    parameters::SUBCOMMAND,
+    replay::SUBCOMMAND,
+];
 
 /// Why there is no result.
 #[derive(Debug)]
@@ -80,7 +87,7 @@ pub(crate) fn main() -> ExitCode {
         .after_help("Example: ringroad run --preset phantom-jam --every 1 --out jam.csv")
         .arg_required_else_help(true)
         .subcommand_required(true);
-    for subcommand in &SUBCOMMANDS {
+    for subcommand in SUBCOMMANDS {
         command = command.subcommand((subcommand.define)());
     }
     let matches = command.get_matches();
