@@ -62,6 +62,8 @@ pub mod vector;
 pub mod verdict;
 #[cfg(target_arch = "wasm32")]
 pub mod web;
+#[cfg(target_arch = "wasm32")]
+pub mod web_figures;
 
 /// The README's example runs with the tests in the documentation.
 #[cfg(doctest)]
