@@ -314,13 +314,12 @@ export const en = {
     progress: (title: string): string => `Progress: ${title}`,
     plot: (title: string): string => `Picture: ${title}`,
     save: 'Save',
-    claims: (title: string): string => `Claims: ${title}`,
     noClaims: 'The paper claims nothing here.',
     columns: { claim: 'Claim', paper: 'Paper', ours: 'Ours', verdict: 'Verdict', method: 'How it was measured' },
     verdicts: { agrees: 'agrees', differs: 'differs', open: 'not determined by the paper' },
     symbols: { agrees: '✓', differs: '✗', open: '?' },
     summary: (agree: number, differ: number, open: number): string =>
-      `${agree + differ + open} claims so far: ${agree} agree, ${differ} differ, ${open} not determined by the paper.`,
+      `${agree + differ + open} claims: ${agree} agree, ${differ} differ, ${open} not determined by the paper.`,
     point: (panel: string, x: string, y: string): string => `${panel}: ${x}, ${y}`,
   },
 }

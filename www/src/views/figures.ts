@@ -8,7 +8,6 @@ import type { Claim, FigureInfo, FigureOutcome } from '../shared/protocol'
 import { text } from '../text'
 
 const t = text.figures
-const VERDICTS = ['agrees', 'differs', 'open'] as const
 
 /** One figure on the page. */
 interface Entry {
@@ -62,11 +61,10 @@ export async function figuresView(session: Session): Promise<HTMLElement[]> {
       entry.state = 'idle'
       entry.show()
       current = null
+      const claims = entries.flatMap(e => e.outcome?.claims ?? [])
+      summary.textContent = claims.length === 0 ? '' : tally(claims)
     }
     none.disabled = true
-    const claims = entries.flatMap(e => e.outcome?.claims ?? [])
-    const count = (v: Claim['verdict']) => claims.filter(c => c.verdict === v).length
-    summary.textContent = claims.length === 0 ? '' : t.summary(count('agrees'), count('differs'), count('open'))
   }
 
   /** Runs a figure; what there is to say in the end. */
@@ -137,6 +135,11 @@ function figureEntry(info: FigureInfo, ask: (entry: Entry) => void, cancel: (ent
   return entry
 }
 
+function tally(claims: readonly Claim[]): string {
+  const count = (v: Claim['verdict']) => claims.filter(c => c.verdict === v).length
+  return t.summary(count('agrees'), count('differs'), count('open'))
+}
+
 function outcomeParts(info: FigureInfo, outcome: FigureOutcome): HTMLElement[] {
   const picture = new DOMParser().parseFromString(outcome.svg, 'image/svg+xml').documentElement
   const file = (name: string, make: () => void) => el('button', { type: 'button', onclick: make }, name)
@@ -169,11 +172,10 @@ function claimsTable(info: FigureInfo, claims: readonly Claim[]): HTMLElement {
       el('td', { class: 'verdict', 'data-name': c.verdict }, el('span', { 'aria-hidden': 'true' }, t.symbols[claim.verdict]), ` ${t.verdicts[claim.verdict]}`),
       el('td', { class: 'method', 'data-name': c.method }, claim.method),
     )
-  const tally = VERDICTS.map(v => `${claims.filter(claim => claim.verdict === v).length} ${t.verdicts[v]}`).join(' · ')
   return el(
     'table',
     { class: 'claims' },
-    el('caption', {}, el('span', { class: 'hidden' }, `${t.claims(info.title)}. `), tally),
+    el('caption', {}, el('span', { class: 'hidden' }, `${info.title}: `), tally(claims)),
     el('thead', {}, el('tr', {}, ...head)),
     el('tbody', {}, ...claims.map(row)),
   )
