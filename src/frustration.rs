@@ -26,12 +26,16 @@ pub fn attempt_probability_in_step(frustration: f64, time_step: f64) -> f64 {
     -libm::expm1(-hazard(frustration) * time_step)
 }
 
+/// Headways (m) that differ by no more are equal. The own headway comes from the start, the adjacent one from
+/// positions; vehicles side by side in equal lanes would else be frustrated by rounding.
+pub const EQUAL: f64 = 1e-6;
+
 /// φ after rules 1 and 2: up by `change` where the adjacent headway is larger than the own one, down where it is
-/// smaller, never below 0, unchanged where they are equal.
+/// smaller, never below 0, unchanged where they are equal to within [`EQUAL`].
 #[inline(always)]
 pub fn compared(frustration: f64, own: f64, adjacent: f64, change: f64) -> f64 {
-    let up = if own < adjacent { change } else { 0.0 };
-    let down = if own > adjacent { change } else { 0.0 };
+    let up = if own + EQUAL < adjacent { change } else { 0.0 };
+    let down = if own > adjacent + EQUAL { change } else { 0.0 };
     let next = frustration + up - down;
     if next > 0.0 { next } else { 0.0 }
 }

@@ -28,12 +28,14 @@
 //! | [`measurement`] | what to measure, plain data |
 //! | [`probe`] | one file a measurement |
 //! | [`fit`] | straight lines and exponentials through points |
+//! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
+//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 //! | [`table`] | columns, units, CSV |
 //! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
 //! | [`plot`], [`colour`] | tables to pictures |
-//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 
 pub mod action;
+pub mod batch;
 pub mod claim;
 pub mod colour;
 pub mod driver;

@@ -76,6 +76,8 @@ pub struct Live {
     balance: Vec<usize>,
     equilibrium: Equilibrium,
     verdict: Verdict,
+    /// Lanes have changed since theory was asked: with several lanes it is asked only when somebody wants to know.
+    stale: bool,
     /// Columns made so far; the last [`COLUMNS`] are kept.
     made: u64,
     columns: VecDeque<Column>,
@@ -103,6 +105,7 @@ impl Live {
             balance: Vec::new(),
             equilibrium: Equilibrium { speed: 0.0, density: 0.0, flow: 0.0 },
             verdict: Verdict::default(),
+            stale: true,
             made: 0,
             columns: VecDeque::new(),
             rows: Vec::new(),
@@ -122,7 +125,14 @@ impl Live {
         &self.simulation
     }
     /// What theory says now.
-    pub fn verdict(&self) -> &Verdict {
+    pub fn verdict(&mut self) -> &Verdict {
+        if std::mem::take(&mut self.stale) {
+            let scenario = self.simulation.scenario();
+            let lanes: Vec<Vec<Driver>> = (self.lanes().iter())
+                .map(|lane| lane.iter().map(|&j| *self.simulation.driver(j)).collect())
+                .collect();
+            self.verdict = verdict(&lanes, scenario.length, scenario.time_step);
+        }
         &self.verdict
     }
     /// The equilibrium with the vehicles spread evenly over all lanes; the density is that of a lane.
@@ -214,13 +224,11 @@ impl Live {
         let scenario = self.simulation.scenario();
         let drivers: Vec<Driver> = (0..scenario.vehicles).map(|j| *self.simulation.driver(j)).collect();
         self.balance = self.simulation.vehicles_per_lane().to_vec();
-        let lanes: Vec<Vec<Driver>> =
-            self.lanes().iter().map(|lane| lane.iter().map(|&j| drivers[j]).collect()).collect();
         // Spread evenly, every lane holds its share of the headways.
         if let Some(e) = equilibrium(&drivers, scenario.length * scenario.lanes as f64) {
             self.equilibrium = e;
         }
-        self.verdict = verdict(&lanes, scenario.length, scenario.time_step);
+        self.stale = true;
         self.changes += 1;
         self.amplitudes.clear();
     }
@@ -305,16 +313,23 @@ impl Live {
     }
 
     fn record_amplitude(&mut self, lanes: &[Vec<usize>]) {
+        if lanes.len() == 1 {
+            self.verdict();
+        }
+        if self.stale {
+            return;
+        }
         let (Some(mode), Some(lane)) = (self.verdict.mode, lanes.get(self.verdict.lane - 1)) else { return };
         let s = &self.simulation;
         let angle = -std::f64::consts::TAU * mode as f64 / lane.len() as f64;
         let (cos, sin) = (libm::cos(angle), libm::sin(angle));
         let (mut turn, mut sum) = ((1.0, 0.0), (0.0, 0.0));
-        let mut small = true;
+        // The largest deviation as a part of the gap to the minimum headway.
+        let mut largest = 0.0_f64;
         for &j in lane {
             let rest = s.driver(j).headway(self.verdict.equilibrium.speed);
             let deviation = s.headway(j) - rest;
-            small &= deviation.abs() <= SMALL * (rest - s.driver(j).min_headway);
+            largest = largest.max(deviation.abs() / (rest - s.driver(j).min_headway));
             sum = (sum.0 + deviation * turn.0, sum.1 + deviation * turn.1);
             turn = (turn.0 * cos - turn.1 * sin, turn.0 * sin + turn.1 * cos);
         }
@@ -324,10 +339,11 @@ impl Live {
             return;
         }
         // What was measured before the waves became large stays; it begins anew when they are small again.
-        if self.large && small {
+        if self.large && largest < SMALL / 4.0 {
+            self.large = false;
             self.amplitudes.clear();
         }
-        self.large = !small;
+        self.large |= largest > SMALL;
         if self.large {
             return;
         }
@@ -417,19 +433,21 @@ impl Live {
 
     /// Sets a parameter. A driver's holds for all drivers from now on; any other, and every one at t = 0 or after
     /// a collision, starts the run again with what was set.
-    pub fn set(&mut self, name: &str, text: &str) -> Result<(), Invalid> {
+    /// Returns whether it started again.
+    pub fn set(&mut self, name: &str, text: &str) -> Result<bool, Invalid> {
         let running = self.simulation.step_index() > 0 && self.simulation.collision().is_none();
         if name == "until" {
             let parameter = named(name)?;
-            return self.set_until(parameter.parse(text)?);
+            return self.set_until(parameter.parse(text)?).map(|()| false);
         }
         if running && name != "start" && named(name)?.is_of_driver() {
             let parameter = named(name)?;
             let value = parameter.parse(text)?;
-            return self.act(Action { at: 0.0, who: Who::All, effects: vec![Effect::Set(parameter, value)] });
+            let action = Action { at: 0.0, who: Who::All, effects: vec![Effect::Set(parameter, value)] };
+            return self.act(action).map(|()| false);
         }
         *self = Self::new(&self.with(name, text)?)?;
-        Ok(())
+        Ok(true)
     }
 
     /// What theory would say after [`Self::set`].

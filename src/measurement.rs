@@ -17,20 +17,27 @@ use crate::probe::{
     growth::{Growth, Linear},
     lanes::Lanes,
     modes::Modes,
+    overview::{Outcome, Overview},
     speed_map::SpeedMap,
     speeds::Speeds,
     trajectories::Trajectories,
 };
 use crate::scenario::Scenario;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::{Map, Value};
 
 /// What is measured. Times are in seconds and round to whole steps; vehicles and lanes are numbered from 1.
 ///
 /// Read it with [`Measurement::from_json`], which fills in defaults and names what is wrong.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "table", rename_all = "kebab-case", deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Measurement {
+    /// A run in one row; it is there when the run has ended.
+    Outcome {},
+    /// The whole ring, a row for each time.
+    Overview {
+        /// Time between rows, s.
+        every: f64,
+    },
     /// Every vehicle's state, a row for each vehicle and time.
     Trajectories {
         /// Time between rows, s.
@@ -210,6 +217,40 @@ impl Setting {
     }
 }
 
+/// Where a setting is kept, by the kind of its value.
+enum Field<'a> {
+    Number(&'a mut f64),
+    Whole(&'a mut usize),
+    OptionalNumber(&'a mut Option<f64>),
+    OptionalWhole(&'a mut Option<usize>),
+    List(&'a mut Option<Vec<usize>>),
+}
+
+impl Field<'_> {
+    fn read(&self) -> Value {
+        let whole = |n: usize| Value::from(n);
+        match self {
+            Self::Number(x) => number_value(**x),
+            Self::Whole(n) => whole(**n),
+            Self::OptionalNumber(x) => x.map_or(Value::Null, number_value),
+            Self::OptionalWhole(n) => n.map_or(Value::Null, whole),
+            Self::List(list) => list.as_ref().map_or(Value::Null, |l| l.iter().copied().map(whole).collect()),
+        }
+    }
+
+    /// Writes a value that its [`Setting`] has checked; whole numbers may come as 2.0.
+    fn write(self, value: &Value) {
+        let whole = |v: &Value| v.as_f64().map(|x| x as usize);
+        match self {
+            Self::Number(x) => *x = value.as_f64().unwrap_or(*x),
+            Self::Whole(n) => *n = whole(value).unwrap_or(*n),
+            Self::OptionalNumber(x) => *x = value.as_f64(),
+            Self::OptionalWhole(n) => *n = whole(value),
+            Self::List(list) => *list = value.as_array().map(|l| l.iter().filter_map(whole).collect()),
+        }
+    }
+}
+
 /// A JSON number, whole ones without ".0".
 fn number_value(x: f64) -> Value {
     if x == x.trunc() && x.abs() < 9.1e15 { Value::from(x as i64) } else { Value::from(x) }
@@ -217,7 +258,7 @@ fn number_value(x: f64) -> Value {
 
 impl Measurement {
     /// Every measurement with its default settings, in the order in which people read them.
-    pub fn all() -> [Self; 13] {
+    pub fn all() -> [Self; 15] {
         let every = 1.0;
         [
             Self::Trajectories { every },
@@ -233,6 +274,8 @@ impl Measurement {
             Self::Lanes { every },
             Self::Drivers { every },
             Self::Vehicles { every },
+            Self::Overview { every },
+            Self::Outcome {},
         ]
     }
 
@@ -262,7 +305,14 @@ impl Measurement {
             Self::Lanes { .. } => "lanes",
             Self::Drivers { .. } => "drivers",
             Self::Vehicles { .. } => "vehicles",
+            Self::Overview { .. } => "overview",
+            Self::Outcome {} => "outcome",
         }
+    }
+
+    /// Time between rows, s, where they come at regular times.
+    pub fn every(&self) -> Option<f64> {
+        self.to_map().get("every").and_then(Value::as_f64)
     }
 
     /// The settings that this measurement has.
@@ -293,44 +343,81 @@ impl Measurement {
         Self::from_map(&map)
     }
 
-    fn to_map(&self) -> Map<String, Value> {
-        let Ok(Value::Object(mut map)) = serde_json::to_value(self) else { unreachable!("a flat enum") };
-        for value in map.values_mut() {
-            if let Some(number) = value.as_f64() {
-                *value = number_value(number);
+    /// The settings that this measurement has, by their names in JSON.
+    ///
+    /// Reading and writing both go through this list: serde's derived code for the same weighs a tenth of the
+    /// page's WebAssembly module.
+    fn fields(&mut self) -> Vec<(&'static str, Field<'_>)> {
+        use Field::{List, Number, OptionalNumber, OptionalWhole, Whole};
+        match self {
+            Self::Trajectories { every }
+            | Self::Equilibrium { every }
+            | Self::Lanes { every }
+            | Self::Drivers { every }
+            | Self::Vehicles { every }
+            | Self::Overview { every } => vec![("every", Number(every))],
+            Self::Speeds { every, vehicles } => vec![("every", Number(every)), ("vehicles", List(vehicles))],
+            Self::SpeedMap { every, bins, lane } => {
+                vec![("every", Number(every)), ("bins", Whole(bins)), ("lane", Whole(lane))]
             }
+            Self::FlowMap { every, bins, window } => {
+                vec![("every", Number(every)), ("bins", Whole(bins)), ("window", Number(window))]
+            }
+            Self::Flow { every, window, at } => {
+                vec![("every", Number(every)), ("window", Number(window)), ("at", OptionalNumber(at))]
+            }
+            Self::Modes { every, modes, lane } => {
+                vec![("every", Number(every)), ("modes", OptionalWhole(modes)), ("lane", Whole(lane))]
+            }
+            Self::Growth { every, modes, lane, from, smallest, nonlinearity } => vec![
+                ("every", Number(every)),
+                ("modes", OptionalWhole(modes)),
+                ("lane", Whole(lane)),
+                ("from", OptionalNumber(from)),
+                ("smallest", Number(smallest)),
+                ("nonlinearity", Number(nonlinearity)),
+            ],
+            Self::CyclicGrowth { vehicle, periods } => {
+                vec![("vehicle", Whole(vehicle)), ("periods", Whole(periods))]
+            }
+            Self::Events {} | Self::Outcome {} => vec![],
+        }
+    }
+
+    fn to_map(&self) -> Map<String, Value> {
+        let mut map = Map::new();
+        map.insert("table".into(), self.name().into());
+        for (name, field) in self.clone().fields() {
+            map.insert(name.into(), field.read());
         }
         map
     }
 
     fn from_map(given: &Map<String, Value>) -> Result<Self, Invalid> {
-        let table = match given.get("table") {
+        let mut table = match given.get("table") {
             Some(Value::String(name)) => Self::named(name)?,
             other => {
                 let value = other.map_or_else(|| "nothing".to_owned(), Value::to_string);
                 return Err(Invalid::new("table", value, "the name of a table, a text"));
             }
         };
-        let mut map = table.to_map();
+        let (known, of) = (table.to_map(), table.name());
         for (name, value) in given.iter().filter(|(name, _)| *name != "table") {
-            let Some(default) = map.get(name) else {
-                let names: Vec<_> = map.keys().map(String::as_str).collect();
-                return Err(Invalid::new("field", quoted(name), names.join(", ")).within(table.name()));
+            let Some(default) = known.get(name) else {
+                let names: Vec<_> = known.keys().map(String::as_str).collect();
+                return Err(Invalid::new("field", quoted(name), names.join(", ")).within(of));
             };
             let follows = default.is_null() && value.is_null();
             if !follows && let Some(setting) = SETTINGS.iter().find(|s| s.name == name) {
-                setting.check(value).map_err(|e| e.within(table.name()))?;
+                setting.check(value).map_err(|e| e.within(of))?;
             }
-            // Whole numbers may come as 2.0.
-            let whole = |v: &Value| v.as_f64().map_or_else(|| v.clone(), number_value);
-            let value = match value {
-                Value::Array(items) => items.iter().map(whole).collect(),
-                one => whole(one),
-            };
-            map.insert(name.clone(), value);
+            for (field, place) in table.fields() {
+                if field == name {
+                    place.write(value);
+                }
+            }
         }
-        serde_json::from_value(Value::Object(map))
-            .map_err(|e| Invalid::new("measurement", e, "settings of the right kind"))
+        Ok(table)
     }
 
     /// One line of JSON with every field.
@@ -463,6 +550,8 @@ impl Measurement {
             Self::Lanes { every } => Box::new(Lanes::new(steps(every))),
             Self::Drivers { every } => Box::new(Drivers::new(steps(every))),
             Self::Vehicles { every } => Box::new(Vehicles::new(steps(every))),
+            Self::Overview { every } => Box::new(Overview::new(scenario, steps(every))),
+            Self::Outcome {} => Box::new(Outcome::new(scenario)),
         })
     }
 
@@ -477,6 +566,8 @@ impl Measurement {
             }
             Self::Vehicles { every } => (every, 4 * scenario.vehicles),
             Self::Flow { every, .. } => (every, 2),
+            Self::Overview { every } => (every, 6),
+            Self::Outcome {} => (scenario.until.max(1.0), 8),
             Self::Lanes { every } | Self::Equilibrium { every } | Self::Drivers { every } => {
                 (every, 8 * scenario.lanes)
             }
@@ -501,7 +592,7 @@ mod tests {
             assert_eq!(Measurement::from_json(&resolved.to_json()).unwrap(), resolved);
             assert!(measurement.validate(&scenario).is_ok());
             assert_eq!(measurement.to_json().lines().count(), 1);
-            assert_eq!(serde_json::to_value(&measurement).unwrap()["table"], measurement.name());
+            assert_eq!(measurement.to_map()["table"], measurement.name());
         }
         let speeds = Measurement::from_json(r#"{"table":"speeds"}"#).unwrap().resolved(&scenario);
         assert_eq!(speeds.to_json(), r#"{"every":1,"table":"speeds","vehicles":[1,11,21,31,41]}"#);

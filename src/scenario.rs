@@ -279,7 +279,7 @@ impl Scenario {
                     );
                     return Err(Invalid::new("vehicles", n, allowed));
                 }
-            } else if count > 1 {
+            } else if count > 0 {
                 let headway = self.length / count as f64;
                 for (i, driver) in lane_drivers.iter().enumerate() {
                     let ahead = lane_drivers[(i + 1) % count];

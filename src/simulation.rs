@@ -11,8 +11,9 @@
 //! # Choices
 //!
 //! - Where a forward move has carried a vehicle through its leader (headway ≤ 0), the order in the lane is lost
-//!   already: nobody changes lane any more in that step, and stage 2 reports the collision. So vehicles of one lane
-//!   never change order without a reported collision.
+//!   already: stage 1 is left out in that step, and stage 2 reports the collision. So vehicles of one lane never change
+//!   order without a reported collision.
+//! - Two headways are equal when they differ by no more than rounding may: see [`crate::frustration::EQUAL`].
 //! - A tie between two adjacent lanes is broken by a coin that is tossed at an attempt only.
 //! - Nudges move a vehicle past others as driving does: in its own lane that is a collision, in an adjacent one a
 //!   pass.
@@ -23,6 +24,7 @@ use crate::error::Invalid;
 use crate::following::{Following, REFRESH};
 use crate::frustration::{ExponentialClock, Sampler, compared};
 use crate::history::{History, padded};
+use crate::parameters::quoted;
 use crate::random::{Generator, Stream};
 use crate::reaction::Delays;
 use crate::ring::{Pass, Ring, Side};
@@ -483,8 +485,12 @@ impl<S: Sampler> Simulation<S> {
     // ---- Acting ------------------------------------------------------------------------------------------------
 
     /// Does something now: `at` becomes the present time, and the action is added to the scenario, so that a
-    /// replay gives the same bits. A refused action changes nothing.
+    /// replay gives the same bits. A refused action changes nothing; after a collision every action is refused, since
+    /// a replay would make it before.
     pub fn act(&mut self, mut action: Action) -> Result<(), Invalid> {
+        if self.collision.is_some() {
+            return Err(Invalid::new("action", quoted(&action.to_string()), "none after a collision"));
+        }
         action.at = self.time();
         self.scenario.check_action(&action)?;
         let index = self.scenario.actions.len();

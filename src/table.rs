@@ -5,6 +5,7 @@
 //! rows. A number is written with the fewest digits that read back to the same bits; what does not exist
 //! (no headway measured yet, say) is an empty field. Text is quoted after RFC 4180.
 
+use crate::batch::Plan;
 use crate::error::Invalid;
 use crate::measurement::Measurement;
 use crate::parameters::quoted;
@@ -134,6 +135,13 @@ impl Table {
         out
     }
 
+    /// The table of a batch as CSV, with its plan in the header.
+    pub fn to_csv_of_batch(&self, plan: &Plan) -> String {
+        let mut out = format!("{PROGRAM}{VERSION}\n{PLAN}{}\n", plan.to_json());
+        self.write_body(&mut out);
+        out
+    }
+
     /// Column meanings, column names and rows: all of the CSV below the lines that say what made it.
     pub fn write_body(&self, out: &mut String) {
         for column in &self.columns {
@@ -165,8 +173,14 @@ impl Table {
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 const PROGRAM: &str = "# ringroad ";
 const SCENARIO: &str = "# scenario ";
+const PLAN: &str = "# plan ";
 const MEASUREMENT: &str = "# measurement ";
 const COMPUTED: &str = "# computed ";
+
+/// The plan in the header of a file that [`Table::to_csv_of_batch`] wrote.
+pub fn plan_from_csv(text: &str) -> Result<Plan, Invalid> {
+    Plan::from_json(header_line(text, PLAN)?).map_err(|e| e.within("CSV header"))
+}
 
 /// What the header of a CSV file says about its making.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
-//! What linear theory says of the ring as it runs, in the few numbers of one sentence.
+//! What linear theory says of the ring as it runs, in the few numbers of the page's sentence.
 
 use crate::driver::{Driver, Equilibrium, equilibrium};
-use num_complex::Complex64;
+use crate::stability::report::{Lane, Report};
 
 /// The sentence's numbers, of the least stable lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,9 +10,9 @@ pub struct Verdict {
     pub stable: Option<bool>,
     /// Whether all drivers of the lane are alike.
     pub alike: bool,
-    /// The largest reaction time of any driver in whole steps, s.
+    /// Reaction time in whole steps, s; the mean where drivers differ.
     pub reaction_time: f64,
-    /// Critical reaction time in continuous time, s; none if every one is stable, or drivers differ.
+    /// Critical reaction time in continuous time, s, none if every one is stable; the mean where drivers differ.
     pub critical: Option<f64>,
     /// The same for the run's time step.
     pub critical_discrete: Option<f64>,
@@ -27,6 +27,7 @@ pub struct Verdict {
 }
 
 impl Default for Verdict {
+    /// Of a ring about which nothing is known.
     fn default() -> Self {
         Self {
             stable: None,
@@ -42,54 +43,30 @@ impl Default for Verdict {
     }
 }
 
-/// The verdict on lanes of drivers on a ring of `length` metres, in steps of `time_step` seconds.
+/// The verdict on lanes of drivers on a ring of `length` metres, in steps of `time_step` seconds. Delays are what
+/// they will be once all of them are in force.
 pub fn verdict(lanes: &[Vec<Driver>], length: f64, time_step: f64) -> Verdict {
-    let mut worst = Verdict::default();
-    for (k, drivers) in lanes.iter().enumerate() {
-        let Some(equilibrium) = equilibrium(drivers, length) else { continue };
-        let of_lane = of_lane(drivers, equilibrium, length, time_step);
-        if worst.rate.is_none() || of_lane.rate > worst.rate {
-            worst = Verdict { lane: k + 1, ..of_lane };
-        }
+    let steps = |d: &Driver| (d.reaction_time / time_step).round() as u64;
+    let lane = |drivers: &Vec<Driver>| Lane {
+        drivers: drivers.clone(),
+        delay_steps: drivers.iter().map(steps).collect(),
+    };
+    if lanes.iter().all(Vec::is_empty) {
+        return Verdict::default();
     }
-    worst
-}
-
-fn of_lane(drivers: &[Driver], equilibrium: Equilibrium, length: f64, dt: f64) -> Verdict {
-    let n = drivers.len();
-    let delay = drivers.iter().map(|d| (d.reaction_time / dt).round()).fold(0.0, f64::max);
-    let alike = drivers.iter().all(|d| {
-        (d.max_speed, d.sensitivity, d.min_headway, d.reaction_time)
-            == (
-                drivers[0].max_speed,
-                drivers[0].sensitivity,
-                drivers[0].min_headway,
-                drivers[0].reaction_time,
-            )
-    });
-    let mut verdict = Verdict { alike, reaction_time: delay * dt, equilibrium, ..Verdict::default() };
-    let c = drivers[0].slope(length / n as f64);
-    if n < 2 || c == 0.0 {
-        return verdict;
+    let lanes: Vec<_> = lanes.iter().map(lane).collect();
+    let report = Report::of_lanes(&lanes, length, time_step);
+    let moves = !report.jammed && report.vehicles > 1;
+    Verdict {
+        stable: moves.then_some(report.stable),
+        alike: report.equal_drivers,
+        reaction_time: report.delay_in_force_s,
+        critical: report.critical_reaction_time_s,
+        critical_discrete: report.critical_reaction_time_discrete_s,
+        rate: report.max_growth_rate_discrete_per_s.filter(|_| moves),
+        mode: report.fastest_mode_discrete.filter(|_| moves),
+        equilibrium: equilibrium(&lanes[report.lane - 1].drivers, length)
+            .unwrap_or(Verdict::default().equilibrium),
+        lane: report.lane,
     }
-    let a = std::f64::consts::PI / n as f64;
-    verdict.critical = Some(a / (2.0 * c * libm::sin(a)));
-    verdict.critical_discrete = Some((a / libm::asin(dt * c * libm::sin(a)) - 1.0) / 2.0 * dt);
-    for q in 1..=(n / 2).min(100) {
-        let angle = 2.0 * a * q as f64;
-        let d = Complex64::new(libm::cos(angle) - 1.0, libm::sin(angle)) * (c * dt);
-        let mut z = d + 1.0;
-        for m in 1..=delay as i32 {
-            for _ in 0..6 {
-                let power = z.powi(m);
-                z -= (power * (z - 1.0) - d) / (power * (1.0 + f64::from(m) * (z - 1.0) / z));
-            }
-        }
-        let rate = libm::log(z.norm()) / dt;
-        if verdict.rate.is_none_or(|r| rate > r) {
-            (verdict.rate, verdict.mode) = (Some(rate), Some(q));
-        }
-    }
-    verdict.stable = verdict.rate.map(|r| r < 0.0);
-    verdict
 }

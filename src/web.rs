@@ -119,6 +119,11 @@ impl Lab {
 
     fn replace(&mut self, live: Live) {
         self.live = live;
+        self.began();
+    }
+
+    /// Another run: nothing of the old picture stays.
+    fn began(&mut self) {
         self.epoch += 1;
         self.map.painted = None;
     }
@@ -138,12 +143,8 @@ impl Lab {
 
     /// Sets a parameter by name: a driver's from now on, any other by starting again.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), JsError> {
-        let mut live = self.live.clone();
-        live.set(name, text).map_err(refusal)?;
-        if live.simulation().step_index() == 0 || live.columns_made() < self.live.columns_made() {
-            self.replace(live);
-        } else {
-            self.live = live;
+        if self.live.set(name, text).map_err(refusal)? {
+            self.began();
         }
         Ok(())
     }
@@ -178,7 +179,8 @@ impl Lab {
     // ---- Reading -----------------------------------------------------------------------------------------------
 
     /// What changes by actions and settings only, as JSON.
-    pub fn snapshot(&self) -> String {
+    pub fn snapshot(&mut self) -> String {
+        let said = verdict(self.live.verdict());
         let live = &self.live;
         let scenario = live.simulation().scenario();
         let now = live.settled().driver;
@@ -192,7 +194,7 @@ impl Lab {
             "scenario": scenario,
             "link": link::format(scenario),
             "driver": driver,
-            "verdict": verdict(live.verdict()),
+            "verdict": said,
             "watched": watched,
             "interval": live.interval(),
             "flow_window": live.flow_window(),

@@ -51,7 +51,8 @@ fn compare<S: Sampler>(fast: &Simulation<S>, twin: &Twin<S>) {
     for (lane, &count) in fast.vehicles_per_lane().iter().enumerate() {
         assert_eq!(twin.lane.iter().filter(|&&l| l == lane).count(), count, "vehicles in lane {lane}");
     }
-    if !twin.order_is_lost() {
+    // Vehicles in one place have an order by rounding only; they have touched anyway.
+    if (0..n).all(|j| twin.headway(j) > 1e-6) {
         for j in 0..n {
             assert_eq!(
                 fast.leader(j),
@@ -143,4 +144,14 @@ fn the_twin_has_the_same_events_by_the_literal_sampler() {
 #[test]
 fn the_twin_has_the_same_events_by_the_exponential_clock() {
     twins_agree::<ExponentialClock>(250, 2);
+}
+
+#[test]
+fn a_single_lane_is_the_same_to_the_last_bit() {
+    runner(100, 3)
+        .run(&scenarios(1..=1), |scenario| {
+            run::<ExponentialClock>(&scenario, &[], &mut Seen::default());
+            Ok(())
+        })
+        .unwrap();
 }

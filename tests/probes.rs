@@ -366,14 +366,16 @@ fn lanes_and_drivers_add_up() {
     assert_eq!(groups[..2], ["sensitivity=2", "default"]);
 }
 
-/// A table taken in mid-run, after actions made by hand, is to the last byte the one of a run that ends there.
+/// A table taken in mid-run, after actions made by hand, is to the last byte the one of a run that ends there. Only
+/// the outcome has to wait for the end.
 #[test]
 fn a_table_in_mid_run_is_that_of_a_run_until_then() {
     let scenario = with_actions(
         Scenario { vehicles: 30, lanes: 2, time_step: 0.05, until: 100.0, ..Scenario::default() },
         &["at=0:1:nudge=1", "at=7:3:brake=2"],
     );
-    let measurements = Measurement::all();
+    let waits = |m: &Measurement| matches!(m, Measurement::Outcome {});
+    let measurements: Vec<_> = Measurement::all().into_iter().filter(|m| !waits(m)).collect();
     let mut probes: Vec<_> = measurements.iter().map(|m| m.probe(&scenario).unwrap()).collect();
     let mut simulation = Simulation::new(&scenario).unwrap();
     let observe =
@@ -405,6 +407,42 @@ fn a_table_in_mid_run_is_that_of_a_run_until_then() {
             }
         }
     }
+}
+
+#[test]
+fn an_outcome_is_there_when_the_run_has_ended() {
+    let scenario = Scenario { until: 3.0, ..Scenario::default() };
+    let mut probe = Measurement::Outcome {}.probe(&scenario).unwrap();
+    let mut simulation = Simulation::new(&scenario).unwrap();
+    while !simulation.is_finished() {
+        probe.observe(&simulation);
+        assert_eq!(probe.table().rows(), 0);
+        simulation.step();
+    }
+    probe.observe(&simulation);
+    assert_eq!(probe.table().floats("end_time_s").unwrap(), [3.0]);
+    // A uniform ring keeps the speed of its equilibrium.
+    let speed = scenario.driver.speed(20.0);
+    assert!((probe.table().floats("mean_speed_m_per_s").unwrap()[0] - speed).abs() < 1e-12);
+}
+
+/// The means of an overview are over the time between its rows: together they are those of the outcome.
+#[test]
+fn an_overview_adds_up_to_the_outcome() {
+    let scenario = Scenario { until: 60.0, ..ringroad::preset::preset("load-balance").unwrap().scenario };
+    let overview = table(&scenario, r#"{"table":"overview","every":5}"#);
+    let outcome = table(&scenario, r#"{"table":"outcome"}"#);
+    for name in ["mean_speed_m_per_s", "mean_flow_veh_per_s"] {
+        let rows = overview.floats(name).unwrap();
+        assert!(rows[0].is_nan() && rows.len() == 13, "{rows:?}");
+        let mean = rows[1..].iter().sum::<f64>() / 12.0;
+        assert!((mean - outcome.floats(name).unwrap()[0]).abs() < 1e-12, "{name}");
+    }
+    for name in ["speed_deviation_m_per_s", "lane_changes_per_vehicle"] {
+        assert_eq!(overview.floats(name).unwrap().last(), outcome.floats(name).unwrap().last());
+    }
+    assert_eq!(overview.wholes("imbalance").unwrap().last(), outcome.wholes("imbalance").unwrap().last());
+    assert!(outcome.floats("lane_changes_per_vehicle").unwrap()[0] > 0.0);
 }
 
 #[test]

@@ -17,9 +17,7 @@ export default defineConfig(({ mode }) => {
   const one = mode === 'one-file'
   return {
     base: './',
-    resolve: one ? { alias: [{ find: '../wasm', replacement: at('src/wasm.inline.ts') }] } : {},
-    // A classic worker from a blob: module workers from a blob fail in pages opened from disk.
-    worker: { format: 'iife' },
+    resolve: one ? { alias: [{ find: '../place', replacement: at('src/place.inline.ts') }] } : {},
     plugins: one ? [viteSingleFile({ removeViteModuleLoader: true }), rename] : [],
     build: {
       target: 'es2022',

@@ -3,6 +3,7 @@
 //! Exit status: 0 for a result (a collision is one), 1 where a replay differs, 2 where there is no result: bad
 //! usage or a file that cannot be read or written, with a message on the standard error stream.
 
+mod batch;
 mod options;
 mod output;
 mod parameters;
@@ -33,6 +34,8 @@ const SUBCOMMANDS: &[Subcommand] = &[
     run::SUBCOMMAND,
     stability::SUBCOMMAND,
     reproduce::SUBCOMMAND,
+    batch::SUBCOMMAND,
+    stability::SUBCOMMAND,
     presets::SUBCOMMAND,
     parameters::SUBCOMMAND,
     replay::SUBCOMMAND,

@@ -70,6 +70,13 @@ pub(crate) fn scenario_options(command: Command) -> Command {
 
 /// The scenario that the options describe.
 pub(crate) fn scenario(matches: &ArgMatches) -> Result<Scenario, Failure> {
+    let scenario = unchecked_scenario(matches)?;
+    scenario.validate()?;
+    Ok(scenario)
+}
+
+/// The same where some of its values are still to be replaced: each value is allowed, combinations may not be.
+pub(crate) fn unchecked_scenario(matches: &ArgMatches) -> Result<Scenario, Failure> {
     let text = |name: &str| matches.get_one::<String>(name);
     let mut scenario = match (text("preset"), text("scenario")) {
         (Some(name), _) => preset(name)?.scenario,
@@ -90,7 +97,6 @@ pub(crate) fn scenario(matches: &ArgMatches) -> Result<Scenario, Failure> {
     for action in matches.get_many::<String>("action").into_iter().flatten() {
         scenario.actions.push(action.parse().map_err(|e: Invalid| e.within("--action"))?);
     }
-    scenario.validate()?;
     Ok(scenario)
 }
 

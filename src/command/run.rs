@@ -31,18 +31,17 @@ fn define() -> Command {
                 .conflicts_with("table")
                 .help("Write a summary of the run as JSON instead of a table"),
         );
-    measurement_options(scenario_options(command))
+    measurement_options(scenario_options(command), "trajectories")
 }
 
-/// `--table` and the settings of the measurements.
-fn measurement_options(command: Command) -> Command {
+/// `--table` and the settings of the measurements; `default` is the table where none is named.
+pub(crate) fn measurement_options(command: Command, default: &str) -> Command {
     let names: Vec<_> = Measurement::all().iter().map(Measurement::name).collect();
     let mut command = command.next_help_heading("Measurement").arg(
         Arg::new("table")
             .long("table")
             .value_name("NAME")
-            .default_value("trajectories")
-            .help(format!("What to measure: {}", names.join(", "))),
+            .help(format!("What to measure: {} [default: {default}]", names.join(", "))),
     );
     for (k, setting) in SETTINGS.iter().enumerate() {
         if SETTINGS[..k].iter().any(|s| s.option == setting.option) {
@@ -66,8 +65,9 @@ fn measurement_options(command: Command) -> Command {
     command.next_help_heading(None::<&str>)
 }
 
-fn measurement(matches: &ArgMatches) -> Result<Measurement, Failure> {
-    let name = matches.get_one::<String>("table").expect("has a default");
+/// The measurement that the options describe.
+pub(crate) fn measurement(matches: &ArgMatches, default: &str) -> Result<Measurement, Failure> {
+    let name = matches.get_one::<String>("table").map_or(default, String::as_str);
     let mut given = Vec::new();
     for (k, setting) in SETTINGS.iter().enumerate() {
         let first = !SETTINGS[..k].iter().any(|s| s.option == setting.option);
@@ -112,7 +112,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         bar.finish_and_clear();
         output.write(&summary(&simulation, &watched))?;
     } else {
-        let measurement = measurement(matches)?;
+        let measurement = measurement(matches, "trajectories")?;
         let table = tabulate(&scenario, &measurement)?;
         output.write(&table.to_csv(&scenario, &measurement))?;
     }

@@ -120,13 +120,18 @@ fn line(text: &mut String, name: &str, value: &str) {
     let _ = writeln!(text, "{name:<34}{value}");
 }
 
+/// A rate with its sign, also where it is small.
+fn per_second(x: f64) -> String {
+    if x != 0.0 && x.abs() < 1e-4 { format!("{x:+.3e} 1/s") } else { format!("{x:+.6} 1/s") }
+}
+
 fn in_words(scenario: &Scenario, answer: &Answer) -> String {
     let report = &answer.report;
     let mut text = report.verdict() + "\n\n";
     let seconds = |x: Option<f64>| x.map_or("none".to_owned(), |x| format!("{x:.6} s"));
     let rate = |x: Option<f64>, mode: Option<usize>| match (x, mode) {
-        (Some(x), Some(q)) => format!("{x:+.6} 1/s, mode {q}"),
-        (Some(x), None) => format!("{x} 1/s"),
+        (Some(x), Some(q)) => format!("{}, mode {q}", per_second(x)),
+        (Some(x), None) => per_second(x),
         _ => "none".to_owned(),
     };
     if scenario.lanes > 1 {
@@ -180,7 +185,7 @@ fn in_words(scenario: &Scenario, answer: &Answer) -> String {
         let last = number.unwrap_or(calming.vehicles);
         let rates = calming.numbers.iter().zip(&calming.max_growth_rates_discrete_per_s);
         for (n, rate) in rates.filter(|(n, _)| **n <= last) {
-            line(&mut text, &format!("  growth rate with {n}"), &format!("{rate:+.6} 1/s"));
+            line(&mut text, &format!("  growth rate with {n}"), &per_second(*rate));
         }
     }
     if let Some(roots) = &answer.roots {

@@ -2,10 +2,11 @@
 //! [`Table`] at any time.
 //!
 //! A probe's rows depend on the states that it saw and on nothing else; so a table taken in mid-run is the one
-//! that a run with `until` at that time gives.
+//! that a run with `until` at that time gives. (An outcome alone waits for the end.)
 //!
 //! | file | measurement |
 //! |---|---|
+//! | [`overview`] | the whole ring, over time or at the end |
 //! | [`trajectories`] | every vehicle's state |
 //! | [`speeds`] | speeds of some vehicles |
 //! | [`speed_map`] | space-time map of speed |
@@ -23,6 +24,7 @@ pub mod flow;
 pub mod growth;
 pub mod lanes;
 pub mod modes;
+pub mod overview;
 mod spectrum;
 pub mod speed_map;
 pub mod speeds;

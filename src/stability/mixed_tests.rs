@@ -174,6 +174,15 @@ fn the_mean_delay_decides_for_long_waves() {
     assert!(ring.critical(Time::Continuous) < 0.49);
 }
 
+/// The longest wave of a large ring is critical at Newell's limit, also where slopes and delays differ.
+#[test]
+fn long_waves_have_newells_limit() {
+    let ring = Ring::new((0..4000).map(|j| if j % 3 == 0 { (1.4, 0.9) } else { (0.6, 0.5) }));
+    let limit = ring.newell_limit();
+    assert!((ring.crossing(1, Time::Continuous).unwrap() - limit).abs() < 1e-5, "{limit}");
+    assert_eq!(Ring::new([(0.8, 1.0); 9]).newell_limit(), 0.625);
+}
+
 #[test]
 fn large_rings_find_the_fastest_mode_among_a_choice() {
     let drivers = |n: usize| (0..n).map(move |j| (0.9, if j * 10 < n { 0.0 } else { 0.8 }));

@@ -6,8 +6,10 @@ use super::equal::{Mode, Time};
 use super::ring::Ring;
 use crate::driver::{Driver, equilibrium};
 use crate::scenario::Scenario;
+use crate::simulation::Simulation;
 use serde::Serialize;
 use std::f64::consts::{LN_2, PI};
+use std::fmt::Write as _;
 
 /// The drivers of a lane and the delay of each that is in force, in steps.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,7 +51,7 @@ pub struct Report {
     pub critical_reaction_time_s: Option<f64>,
     /// The same for the simulation with its steps, s; 0 where no delay is stable.
     pub critical_reaction_time_discrete_s: Option<f64>,
-    /// 1/(2c), s: Newell's limit of long waves.
+    /// Critical for infinitely long waves, s: Newell's limit, 1/(2c) of equal drivers.
     pub newell_limit_s: Option<f64>,
     /// By what factor all reaction times may grow before the lane is unstable (below 1: must shrink).
     pub critical_scale: Option<f64>,
@@ -124,6 +126,17 @@ pub fn lanes_of(scenario: &Scenario) -> Vec<Lane> {
         Lane { drivers: own.to_vec(), delay_steps }
     };
     scenario.vehicles_per_lane().into_iter().map(&mut lane).collect()
+}
+
+/// The drivers of every lane of a simulation as it is now, with their delays in force.
+pub fn lanes_now(simulation: &Simulation) -> Vec<Lane> {
+    let mut lanes = vec![Lane::default(); simulation.vehicles_per_lane().len()];
+    for j in 0..simulation.vehicles() {
+        let lane = &mut lanes[simulation.lane(j)];
+        lane.drivers.push(*simulation.driver(j));
+        lane.delay_steps.push(simulation.delay_steps(j) as u64);
+    }
+    lanes
 }
 
 /// The growth of one lane in one time.
@@ -248,11 +261,8 @@ impl Report {
                 (None, Some(time)) => ("Slowest to fade", "halving", time),
                 (None, None) => return text,
             };
-            text.push_str(&format!(
-                " {what}: {} {waves} on the ring, {how} every {} s.",
-                wave.mode,
-                shown(time)
-            ));
+            let _ =
+                write!(text, " {what}: {} {waves} on the ring, {how} every {} s.", wave.mode, shown(time));
         }
         text
     }
@@ -260,6 +270,12 @@ impl Report {
     /// The report on a scenario at its start; the actions on the way are not considered.
     pub fn of(scenario: &Scenario) -> Self {
         Self::of_lanes(&lanes_of(scenario), scenario.length, scenario.time_step)
+    }
+
+    /// The report on traffic as it is now: its lanes, its drivers, their delays in force.
+    pub fn of_simulation(simulation: &Simulation) -> Self {
+        let scenario = simulation.scenario();
+        Self::of_lanes(&lanes_now(simulation), scenario.length, scenario.time_step)
     }
 
     /// The report on lanes of `length` metres in steps of `time_step` seconds. At least one lane holds a vehicle.
@@ -309,7 +325,7 @@ impl Report {
             delay_in_force_s: in_steps.mean_delay(),
             critical_reaction_time_s: finite(critical),
             critical_reaction_time_discrete_s: finite(critical_discrete),
-            newell_limit_s: finite(0.5 / slope),
+            newell_limit_s: finite(ring.newell_limit()),
             critical_scale: scale(critical, ring.mean_delay()),
             critical_scale_discrete: scale(critical_discrete, in_steps.mean_delay()),
             max_growth_rate_per_s: rate(continuous.fastest),
@@ -419,6 +435,17 @@ mod tests {
         assert!((0.95..1.0).contains(&scale), "{scale}");
         scenario.exceptions = vec!["11-15:reaction-time=0".parse().unwrap()];
         assert!(Report::of(&scenario).stable);
+    }
+
+    #[test]
+    fn a_running_simulation_is_judged_as_it_is_now() {
+        let scenario = scenario(0.75);
+        let mut simulation = Simulation::new(&scenario).unwrap();
+        simulation.run_to(60);
+        let early = Report::of_simulation(&simulation);
+        simulation.run_to(80);
+        assert!(early.stable && early.delay_in_force_s < 0.61);
+        assert_eq!(Report::of_simulation(&simulation), Report::of(&scenario));
     }
 
     /// Delays still growing towards the reaction time: the verdict is of the delay in force.

@@ -28,16 +28,24 @@ pub struct Ring {
 impl Ring {
     /// A ring of drivers given by slope (1/s) and delay (s).
     pub fn new(drivers: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let mut sorted: Vec<_> = drivers.into_iter().collect();
-        sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        let mut kinds: Vec<Kind> = Vec::new();
-        for &(slope, delay) in &sorted {
-            match kinds.last_mut() {
-                Some(kind) if (kind.slope, kind.delay) == (slope, delay) => kind.count += 1,
-                _ => kinds.push(Kind { count: 1, slope, delay }),
+        // Runs of alike drivers first, so that a million equal ones need no sorting.
+        let mut runs: Vec<Kind> = Vec::new();
+        for (slope, delay) in drivers {
+            match runs.last_mut() {
+                Some(run) if (run.slope, run.delay) == (slope, delay) => run.count += 1,
+                _ => runs.push(Kind { count: 1, slope, delay }),
             }
         }
-        Self { kinds, vehicles: sorted.len() }
+        runs.sort_unstable_by(|a, b| a.slope.total_cmp(&b.slope).then(a.delay.total_cmp(&b.delay)));
+        let vehicles = runs.iter().map(|run| run.count).sum();
+        runs.dedup_by(|run, kind| {
+            let same = (run.slope, run.delay) == (kind.slope, kind.delay);
+            if same {
+                kind.count += run.count;
+            }
+            same
+        });
+        Self { kinds: runs, vehicles }
     }
 
     /// The drivers of a lane of `length` metres in equilibrium, each with the delay (s) in `delays`.
@@ -84,6 +92,23 @@ impl Ring {
                 if sum == 0.0 { 0.0 } else { self.vehicles as f64 / sum }
             }
         }
+    }
+
+    /// The mean delay (s) at which infinitely long waves are critical, all delays in proportion (all alike where they are
+    /// 0): from the product equation to second order in s, Σ Δ_j/c_j = Σ 1/(2c_j²). Of equal drivers Newell's
+    /// 1/(2c); infinite in the jam.
+    pub fn newell_limit(&self) -> f64 {
+        if let Some((ring, _)) = self.equal() {
+            return ring.newell_limit();
+        }
+        let mean = self.mean_delay();
+        let (mut squares, mut shares) = (0.0, 0.0);
+        for kind in &self.kinds {
+            let weight = kind.count as f64 / kind.slope;
+            squares += 0.5 * weight / kind.slope;
+            shares += weight * if mean > 0.0 { kind.delay / mean } else { 1.0 };
+        }
+        if self.is_jammed() { f64::INFINITY } else { squares / shares }
     }
 
     /// The same ring with other delays, each from the old.

@@ -1,10 +1,13 @@
 //! Scenarios whose tables must have the same bits everywhere, and the hash that is compared.
 
+use ringroad::batch::{Plan, Run, run_all};
+use ringroad::error::Invalid;
 use ringroad::measurement::Measurement;
 use ringroad::preset::preset;
 use ringroad::probe::measure;
 use ringroad::scenario::Scenario;
 use ringroad::simulation::Simulation;
+use std::collections::BTreeMap;
 
 /// What is run and measured: a name, a scenario, a measurement.
 pub fn cases() -> Vec<(&'static str, Scenario, Measurement)> {
@@ -47,7 +50,26 @@ pub fn hash(mut simulation: Simulation, measurement: &Measurement) -> String {
     let scenario = simulation.scenario().clone();
     let mut probes = [measurement.probe(&scenario).unwrap()];
     measure(&mut simulation, &mut probes, &mut |_| true);
-    let csv = probes[0].table().to_csv(&scenario, measurement);
+    digest(&probes[0].table().to_csv(&scenario, measurement))
+}
+
+/// The same of the summary of a small batch, lane changes, collisions and confidence intervals included.
+pub fn batch() -> String {
+    let scenario =
+        Scenario { vehicles: 20, length: 400.0, until: 60.0, ..preset("load-balance").unwrap().scenario };
+    let vary = vec!["reaction-time=0,1.5".parse().unwrap()];
+    let plan = Plan::new(scenario, vary, 5, Measurement::named("overview").unwrap()).unwrap();
+    let numbers: Vec<u64> = (0..plan.runs()).collect();
+    let mut runs = BTreeMap::new();
+    let finished = run_all(&plan, &numbers, None, &|_| true, &mut |run: Run| {
+        runs.insert(run.number, run);
+        Ok::<(), Invalid>(())
+    });
+    assert_eq!(finished, Ok(true));
+    digest(&plan.summary(&runs).unwrap().to_csv_of_batch(&plan))
+}
+
+fn digest(csv: &str) -> String {
     let hash = csv.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     });

@@ -7,7 +7,7 @@
 
 use ringroad::action::{Action, Effect, Who};
 use ringroad::driver::Driver;
-use ringroad::frustration::Sampler;
+use ringroad::frustration::{EQUAL, Sampler};
 use ringroad::random::{Generator, Stream};
 use ringroad::ring::Side;
 use ringroad::scenario::{Scenario, Start};
@@ -240,9 +240,9 @@ impl<S: Sampler> Twin<S> {
         let adjacent = seen.iter().map(|&(_, h)| h).fold(f64::NEG_INFINITY, f64::max);
         let change = self.drivers[j].frustration_rate * self.scenario.time_step;
         let mut phi = self.frustration[j];
-        if own < adjacent {
+        if own + EQUAL < adjacent {
             phi += change; // rule 1
-        } else if own > adjacent {
+        } else if own > adjacent + EQUAL {
             phi = (phi - change).max(0.0); // rule 2
         }
         if self.step > 0 {

@@ -16,7 +16,8 @@ const HEADERS = {
   'policy-worker': html(`${INLINE}; worker-src blob:`),
   'policy-no-worker': html(INLINE),
   'policy-site': html(`${SITE}; script-src 'self' 'wasm-unsafe-eval'`),
-  'policy-site-worker': html(`${SITE}; script-src 'self' 'wasm-unsafe-eval'; worker-src blob:`),
+  'policy-site-worker': html(`${SITE}; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:`),
+  'policy-site-no-worker': html(`${SITE}; script-src 'self' 'wasm-unsafe-eval'; worker-src 'none'`),
   'policy-no-wasm': html(SITE),
 }
 

@@ -1,6 +1,6 @@
 // Opens the core: in a worker where that is allowed, else on the main thread.
 import type { Start } from '../shared/protocol'
-import { wasmBytes } from '../wasm'
+import { wasmBytes } from '../place'
 import type { Client } from './client'
 import { LocalClient } from './local'
 import { WorkerClient } from './worker'

@@ -1,6 +1,6 @@
 // Several cores at once, for work that falls into independent pieces. Where workers are forbidden, the page's own
 // core does one piece after the other and lets the page breathe between them.
-import { wasmBytes } from '../wasm'
+import { wasmBytes } from '../place'
 import { Cancelled, type Client } from './client'
 import { WorkerClient } from './worker'
 

@@ -1,7 +1,7 @@
 // The core in a worker. A policy that forbids workers shows itself as an error event, not as a throw; so the
 // client counts as open only when the worker has spoken.
 import type { Answer, Ask, Name, Question, Reply } from '../shared/protocol'
-import CoreWorker from '../worker/worker?worker&inline'
+import { startWorker } from '../place'
 import { type Client, failure } from './client'
 
 interface Waiting {
@@ -25,7 +25,7 @@ export class WorkerClient implements Client {
   /** Rejects where the page may not have workers. */
   static open(patience = 4000): Promise<WorkerClient> {
     return new Promise((resolve, reject) => {
-      const worker = new CoreWorker()
+      const worker = startWorker()
       const give = (reason: string) => {
         worker.terminate()
         reject(new Error(reason))

@@ -2,24 +2,29 @@
 import type { Frame, Question, Reply } from '../shared/protocol'
 import { Host } from './host'
 
-const scope = self as unknown as {
+/** What a worker's global scope is to us. */
+interface Scope {
   onmessage: (event: MessageEvent<Question>) => void
   postMessage(message: Reply, transfer?: Transferable[]): void
 }
-const host = new Host()
 
+/** The typed arrays of a frame move to the page; nothing else does. */
 const buffers = (answer: unknown): Transferable[] =>
   answer !== null && typeof answer === 'object' && 'positions' in answer
     ? Object.values(answer as Frame).flatMap(v => (ArrayBuffer.isView(v) ? [v.buffer as ArrayBuffer] : []))
     : []
 
-scope.onmessage = async ({ data: { id, name, ask } }) => {
-  try {
-    const progress = (part: number) => scope.postMessage({ kind: 'progress', id, part })
-    const answer = await host.answer(name, ask as never, progress)
-    scope.postMessage({ kind: 'answer', id, answer }, buffers(answer))
-  } catch (e) {
-    scope.postMessage({ kind: 'error', id, message: String(e instanceof Error ? e.message : e) })
+export function answerPage(): void {
+  const scope = self as unknown as Scope
+  const host = new Host()
+  scope.onmessage = async ({ data: { id, name, ask } }) => {
+    try {
+      const progress = (part: number) => scope.postMessage({ kind: 'progress', id, part })
+      const answer = await host.answer(name, ask as never, progress)
+      scope.postMessage({ kind: 'answer', id, answer }, buffers(answer))
+    } catch (e) {
+      scope.postMessage({ kind: 'error', id, message: String(e instanceof Error ? e.message : e) })
+    }
   }
+  scope.postMessage({ kind: 'ready' })
 }
-scope.postMessage({ kind: 'ready' })

@@ -1,0 +1,247 @@
+//! Finished runs as text, one a line, in any order: what an interrupted batch leaves, what a shard is, and what
+//! shards are merged from.
+//!
+//! The first line is a [`Header`] in JSON with the whole plan. Then each run is one line,
+//! `[number, end, collided, [[…], …]]` with a list for each column, NaN being `null`. Numbers read back to the same bits.
+//! A line counts when it ends with a line feed, so that a line half written is as good as none.
+
+use super::plan::Plan;
+use super::run::Run;
+use crate::error::Invalid;
+use crate::parameters::quoted;
+use crate::table::{Column, VERSION, Values};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::str::FromStr;
+
+/// A part of a plan: the runs with number ≡ index − 1 modulo count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub struct Shard {
+    index: u64,
+    count: u64,
+}
+
+impl Default for Shard {
+    /// All of it.
+    fn default() -> Self {
+        Self { index: 1, count: 1 }
+    }
+}
+
+impl Shard {
+    /// The numbers of its runs.
+    pub fn numbers(self, plan: &Plan) -> impl Iterator<Item = u64> + use<> {
+        (self.index - 1..plan.runs()).step_by(self.count as usize)
+    }
+
+    fn holds(self, number: u64) -> bool {
+        number % self.count == self.index - 1
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index, self.count)
+    }
+}
+
+impl From<Shard> for String {
+    fn from(shard: Shard) -> Self {
+        shard.to_string()
+    }
+}
+
+impl TryFrom<String> for Shard {
+    type Error = Invalid;
+    fn try_from(text: String) -> Result<Self, Invalid> {
+        text.parse()
+    }
+}
+
+impl FromStr for Shard {
+    type Err = Invalid;
+    fn from_str(text: &str) -> Result<Self, Invalid> {
+        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        match numbers {
+            Some((index, count)) if 1 <= index && index <= count && count <= super::plan::MOST_RUNS => {
+                Ok(Self { index, count })
+            }
+            _ => Err(Invalid::new("shard", quoted(text), "i/n with i from 1 to n, such as 1/4")),
+        }
+    }
+}
+
+/// The first line: what the runs below it belong to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Header {
+    /// The program's version; a seed means the same run within one.
+    pub ringroad: String,
+    /// Whether the table is to be a summary.
+    pub summary: bool,
+    /// Which part of the plan.
+    pub shard: Shard,
+    /// The plan.
+    pub plan: Plan,
+}
+
+impl Header {
+    /// Of a batch computed by this version.
+    pub fn new(plan: Plan, shard: Shard, summary: bool) -> Self {
+        Self { ringroad: VERSION.to_owned(), summary, shard, plan }
+    }
+
+    /// The line, with its line feed.
+    pub fn line(&self) -> String {
+        serde_json::to_string(self).expect("plain data") + "\n"
+    }
+
+    /// Why runs under the `found` header cannot be taken for runs of this one.
+    fn check(&self, found: &Self) -> Result<(), Invalid> {
+        let refuse = |what: String, allowed: &str| Err(Invalid::new("batch", what, allowed));
+        if self.ringroad != found.ringroad {
+            let what = format!("runs of version {} and not {}", found.ringroad, self.ringroad);
+            return refuse(what, "runs of one version: a seed may mean another run in another");
+        }
+        match self.plan.difference(&found.plan) {
+            Some(difference) => {
+                refuse(format!("another plan, in which {difference}"), "runs of the same plan")
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// A run as a line, with its line feed.
+pub fn line(run: &Run) -> String {
+    let values: Vec<Value> = run
+        .values
+        .iter()
+        .map(|values| match values {
+            Values::Float(v) => v.iter().copied().map(Value::from).collect(),
+            Values::Whole(v) => v.iter().copied().map(Value::from).collect(),
+            Values::Text(v) => v.iter().map(String::as_str).map(Value::from).collect(),
+        })
+        .collect();
+    serde_json::to_string(&(run.number, run.end, run.collided, values)).expect("plain data") + "\n"
+}
+
+/// Reads a run with such columns.
+fn parse(line: &str, columns: &[Column]) -> Option<Run> {
+    let (number, end, collided, lists): (u64, f64, bool, Vec<Vec<Value>>) =
+        serde_json::from_str(line).ok()?;
+    if columns.len() != lists.len() || lists.windows(2).any(|w| w[0].len() != w[1].len()) {
+        return None;
+    }
+    let values = columns.iter().zip(&lists).map(|(column, list)| {
+        Some(match column.values {
+            Values::Float(_) => {
+                let number = |v: &Value| if v.is_null() { Some(f64::NAN) } else { v.as_f64() };
+                Values::Float(list.iter().map(number).collect::<Option<_>>()?)
+            }
+            Values::Whole(_) => Values::Whole(list.iter().map(Value::as_u64).collect::<Option<_>>()?),
+            Values::Text(_) => {
+                Values::Text(list.iter().map(|v| v.as_str().map(str::to_owned)).collect::<Option<_>>()?)
+            }
+        })
+    });
+    Some(Run { number, end, collided, values: values.collect::<Option<_>>()? })
+}
+
+/// What a text of finished runs holds.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Its first line.
+    pub header: Header,
+    /// The runs, by number.
+    pub runs: BTreeMap<u64, Run>,
+    /// Length of the text up to the end of its last whole line; what follows was being written when it broke off.
+    pub whole: usize,
+}
+
+impl Record {
+    /// Reads a text. It may break off anywhere after the header; a line that makes no sense elsewhere is refused.
+    pub fn read(text: &str) -> Result<Self, Invalid> {
+        let start: String = text.chars().take(40).collect();
+        let refuse = || {
+            Invalid::new("batch", quoted(&start), "finished runs that ringroad batch wrote, with their plan")
+        };
+        let (first, _) = text.split_once('\n').ok_or_else(refuse)?;
+        if !first.starts_with("{\"ringroad\":") {
+            return Err(refuse());
+        }
+        let header: Header =
+            serde_json::from_str(first).map_err(|e| Invalid::new("header", e, "the plan of a batch"))?;
+        let columns = header.plan.columns();
+        let mut record = Self { header, runs: BTreeMap::new(), whole: first.len() + 1 };
+        for (k, line) in text[record.whole..].split_inclusive('\n').enumerate() {
+            if !line.ends_with('\n') {
+                break;
+            }
+            record.whole += line.len();
+            let Header { plan, shard, .. } = &record.header;
+            let run = parse(line, &columns).filter(|r| r.number < plan.runs() && shard.holds(r.number));
+            let run = run.ok_or_else(|| {
+                let start: String = line.trim_end().chars().take(40).collect();
+                Invalid::new(format!("line {}", k + 2), quoted(&start), "a finished run of the plan")
+            })?;
+            record.runs.insert(run.number, run);
+        }
+        Ok(record)
+    }
+
+    /// Whether its runs are runs of that plan and shard, computed by this version.
+    pub fn check(&self, plan: &Plan, shard: Shard) -> Result<(), Invalid> {
+        Header::new(plan.clone(), shard, false).check(&self.header)?;
+        if self.header.shard == shard {
+            Ok(())
+        } else {
+            let value = format!("shard {} and not {shard}", self.header.shard);
+            Err(Invalid::new("batch", value, "the same shard"))
+        }
+    }
+}
+
+/// The whole text of a shard whose runs are all there, by number: the same bytes however it came about.
+pub fn write(header: &Header, runs: &BTreeMap<u64, Run>) -> String {
+    runs.values().fold(header.line(), |text, run| text + &line(run))
+}
+
+/// Puts the shards of one plan together again. Each comes with its name, for messages.
+pub fn merge(shards: Vec<(String, Record)>) -> Result<(Header, BTreeMap<u64, Run>), Invalid> {
+    let mut shards = shards.into_iter();
+    let Some((first_name, first)) = shards.next() else {
+        return Err(Invalid::new("merge", "nothing", "the files of all shards of a batch"));
+    };
+    let header = first.header.clone();
+    let mut runs: BTreeMap<u64, (Run, String)> = BTreeMap::new();
+    for (name, shard) in std::iter::once((first_name.clone(), first)).chain(shards) {
+        header.check(&shard.header).map_err(|e| e.within(&name))?;
+        if header.summary != shard.header.summary {
+            let allowed = format!("shards with one form of table, as in {first_name}");
+            let form = if shard.header.summary { "with --summary" } else { "without --summary" };
+            return Err(Invalid::new("shard", form, allowed).within(&name));
+        }
+        for (number, run) in shard.runs {
+            if let Some((_, other)) = runs.insert(number, (run, name.clone())) {
+                let value = format!("shard {} with run {}", shard.header.shard, number + 1);
+                let allowed = format!("shards that do not overlap: the run is in {other}, too");
+                return Err(Invalid::new("merge", value, allowed).within(&name));
+            }
+        }
+    }
+    if let Some(missing) = (0..header.plan.runs()).find(|n| !runs.contains_key(n)) {
+        let value = format!("{} of {} runs", runs.len(), header.plan.runs());
+        let count = header.shard.count;
+        let allowed = format!(
+            "all of them: run {} is missing, a run of shard {}/{count}",
+            missing + 1,
+            missing % count + 1
+        );
+        return Err(Invalid::new("merge", value, allowed));
+    }
+    Ok((header, runs.into_iter().map(|(number, (run, _))| (number, run)).collect()))
+}

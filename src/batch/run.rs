@@ -1,0 +1,122 @@
+//! Computing runs: one by itself, or many on all cores.
+
+use super::plan::Plan;
+use crate::error::Invalid;
+use crate::probe::measure;
+use crate::simulation::Simulation;
+use crate::table::{Column, Values};
+use std::sync::Mutex;
+
+/// What came out of one run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Its number in the plan, from 0.
+    pub number: u64,
+    /// Time of its end, s: of the collision, or the scenario's.
+    pub end: f64,
+    /// Whether a collision ended it.
+    pub collided: bool,
+    /// What was measured: the values of the columns that [`Plan::columns`] names.
+    pub values: Vec<Values>,
+}
+
+impl Plan {
+    /// Computes one run. Before it and every so often `progress` gets the vehicle updates (vehicles times steps) done since it was
+    /// asked last and says whether to go on; where not, there is no run. For a run that ends early the rest counts as done.
+    pub fn run(&self, number: u64, progress: &mut dyn FnMut(u64) -> bool) -> Result<Option<Run>, Invalid> {
+        if !progress(0) {
+            return Ok(None);
+        }
+        let scenario = self.scenario(number);
+        let mut probes = [self.measurement().probe(&scenario)?];
+        let mut simulation = Simulation::new(&scenario)?;
+        let vehicles = scenario.vehicles as u64;
+        let mut seen = 0;
+        let finished = measure(&mut simulation, &mut probes, &mut |step| {
+            let more = (step - seen) * vehicles;
+            seen = step;
+            progress(more)
+        });
+        if !finished {
+            return Ok(None);
+        }
+        progress((scenario.last_step() - seen) * vehicles);
+        let values = probes[0].table().columns().iter().map(|c| c.values.clone()).collect();
+        let collision = simulation.collision();
+        Ok(Some(Run { number, end: simulation.time(), collided: collision.is_some(), values }))
+    }
+
+    /// Vehicle updates of a run that ends as planned.
+    pub fn work(&self, number: u64) -> u64 {
+        let scenario = self.scenario(number);
+        scenario.last_step() * scenario.vehicles as u64
+    }
+
+    /// The columns measured in every run, without values.
+    pub fn columns(&self) -> Vec<Column> {
+        let scenario = self.scenario(0);
+        let sound = "checked when the plan was made";
+        let mut probe = self.measurement().probe(&scenario).expect(sound);
+        probe.observe(&Simulation::new(&scenario).expect(sound));
+        let mut columns = probe.table().columns().to_vec();
+        for column in &mut columns {
+            match &mut column.values {
+                Values::Float(v) => v.clear(),
+                Values::Whole(v) => v.clear(),
+                Values::Text(v) => v.clear(),
+            }
+        }
+        columns
+    }
+}
+
+/// Why not everything was computed.
+enum Stop<E> {
+    Cancelled,
+    Failed(E),
+}
+
+/// Computes these runs of the plan, on as many threads as asked for (all cores by default; one at a time without the
+/// feature `parallel` and in a browser), and hands each to `finished` as soon as it is there, in any order, never two
+/// at once. `progress` is as in [`Plan::run`]. Returns whether it went on to the end.
+pub fn run_all<E: From<Invalid> + Send>(
+    plan: &Plan,
+    numbers: &[u64],
+    threads: Option<usize>,
+    progress: &(dyn Fn(u64) -> bool + Sync),
+    finished: &mut (dyn FnMut(Run) -> Result<(), E> + Send),
+) -> Result<bool, E> {
+    let finished = Mutex::new(finished);
+    let one = |&number: &u64| {
+        let run = plan.run(number, &mut |work| progress(work)).map_err(|e| Stop::Failed(e.into()))?;
+        let run = run.ok_or(Stop::Cancelled)?;
+        let mut finished = finished.lock().map_err(|_| Stop::Cancelled)?;
+        finished(run).map_err(Stop::Failed)
+    };
+    match each(numbers, threads, one) {
+        Ok(()) => Ok(true),
+        Err(Stop::Cancelled) => Ok(false),
+        Err(Stop::Failed(error)) => Err(error),
+    }
+}
+
+#[cfg(all(feature = "parallel", not(target_arch = "wasm32")))]
+fn each<E: Send>(
+    numbers: &[u64],
+    threads: Option<usize>,
+    one: impl Fn(&u64) -> Result<(), E> + Sync,
+) -> Result<(), E> {
+    use rayon::prelude::*;
+    // Runs differ in length by orders of magnitude; so each is a task of its own.
+    let all = || numbers.par_iter().with_max_len(1).try_for_each(&one);
+    match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
+        Some(Ok(pool)) => pool.install(all),
+        // Where the system refuses so many threads, those that there are do it.
+        Some(Err(_)) | None => all(),
+    }
+}
+
+#[cfg(not(all(feature = "parallel", not(target_arch = "wasm32"))))]
+fn each<E>(numbers: &[u64], _threads: Option<usize>, one: impl Fn(&u64) -> Result<(), E>) -> Result<(), E> {
+    numbers.iter().try_for_each(one)
+}

@@ -1,0 +1,69 @@
+//! A step asks for no memory.
+#![allow(unsafe_code)] // an allocator that counts is an `unsafe impl`
+
+use ringroad::scenario::{Scenario, Start};
+use ringroad::simulation::{Event, Simulation};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+// SAFETY: every call is passed on to the system's allocator as it is.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations during 2000 steps after 500, and the lane changes made in them.
+fn measure(scenario: &Scenario) -> (u64, usize) {
+    let mut simulation = Simulation::new(scenario).unwrap();
+    simulation.run_to(500);
+    let before = ALLOCATIONS.with(Cell::get);
+    let mut changes = 0;
+    for _ in 0..2000 {
+        simulation.step();
+        changes += simulation.events().iter().filter(|e| matches!(e, Event::LaneChange { .. })).count();
+    }
+    assert_eq!(simulation.step_index(), 2500, "the run did not end before");
+    (ALLOCATIONS.with(Cell::get) - before, changes)
+}
+
+#[test]
+fn it_counts() {
+    let before = ALLOCATIONS.with(Cell::get);
+    drop(std::hint::black_box(vec![1_u8; 10]));
+    assert!(ALLOCATIONS.with(Cell::get) > before);
+}
+
+#[test]
+fn a_step_allocates_nothing() {
+    let mut scenario = Scenario { vehicles: 50, ..Scenario::default() };
+    scenario.driver.reaction_time = 0.5;
+    scenario.actions.push("at=0:1:nudge=1".parse().unwrap());
+    assert_eq!(measure(&scenario).0, 0, "one lane");
+
+    scenario.exceptions.push("20%:sensitivity=1.5,reaction-time=0.2".parse().unwrap());
+    assert_eq!(measure(&scenario).0, 0, "mixed drivers");
+
+    scenario = Scenario { vehicles: 50, lanes: 2, time_step: 0.05, start: Start::OneLane(1), ..scenario };
+    scenario.driver.reaction_time = 0.0;
+    let (allocations, changes) = measure(&scenario);
+    assert!(changes > 20, "{changes} lane changes");
+    assert_eq!(allocations, 0, "two lanes");
+}
