@@ -39,6 +39,7 @@ const SUBCOMMANDS: &[Subcommand] = &[
     presets::SUBCOMMAND,
     parameters::SUBCOMMAND,
     replay::SUBCOMMAND,
+    reproduce::SUBCOMMAND,
 ];
 
 /// Why there is no result.
