@@ -544,7 +544,7 @@ fn draw_layer(out: &mut String, layer: &Layer, x: Mapping, y: Mapping) {
             let png = map_png(*width, values, scale, middle.is_some());
             let _ = writeln!(
                 out,
-                "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>",
+                "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" image-rendering=\"pixelated\" href=\"data:image/png;base64,{}\"/>",
                 number(x.at(across.0)),
                 number(y.at(up.1)),
                 number(x.at(across.1) - x.at(across.0)),

@@ -32,6 +32,8 @@ pub(crate) struct Subcommand {
 /// Every subcommand, in the order in which the help shows them.
 const SUBCOMMANDS: &[Subcommand] = &[
     run::SUBCOMMAND,
+    stability::SUBCOMMAND,
+    reproduce::SUBCOMMAND,
     batch::SUBCOMMAND,
     stability::SUBCOMMAND,
     presets::SUBCOMMAND,
