@@ -8,9 +8,13 @@ use crate::driver::{Driver, Equilibrium, equilibrium};
 use crate::error::Invalid;
 use crate::link;
 use crate::parameters::Parameter;
+use crate::probe::Probe;
+use crate::probe::growth::{Growth as Modal, Linear};
 use crate::scenario::{Scenario, assign};
 use crate::simulation::Simulation;
-use crate::verdict::{Verdict, verdict};
+use crate::stability::report::{Roots, roots_of_lane};
+use crate::table::Table;
+use crate::verdict::{self, Verdict, verdict};
 use std::collections::VecDeque;
 
 /// Seconds between two columns of the map, rounded to whole steps.
@@ -27,6 +31,11 @@ const GROWTH_WINDOW: f64 = 60.0;
 const ROUNDING: f64 = 1e-9;
 /// A wave is small while no headway differs from rest by more than this part of the gap to the minimum headway.
 const SMALL: f64 = 0.2;
+
+/// Rows for which the growth of all modes is followed after a change.
+const MODAL_ROWS: usize = 2400;
+/// What counts as linear there, as in the table of growth.
+const LINEAR: Linear = Linear { smallest: 1e-8, nonlinearity: 0.01 };
 
 /// What the page opens with: fifty vehicles beyond the critical reaction time, one of them nudged.
 pub fn opening() -> Scenario {
@@ -88,6 +97,10 @@ pub struct Live {
     amplitudes: VecDeque<(f64, f64)>,
     /// Whether waves are too large for linear theory now.
     large: bool,
+    /// Growth of every mode of the verdict's lane since the last change; none until theory was asked.
+    modal: Option<Modal>,
+    /// The step from which on it is looked at.
+    modal_from: u64,
 }
 
 impl Live {
@@ -112,6 +125,8 @@ impl Live {
             crossings: VecDeque::new(),
             amplitudes: VecDeque::new(),
             large: false,
+            modal: None,
+            modal_from: 0,
             simulation,
         };
         live.plan();
@@ -231,6 +246,45 @@ impl Live {
         self.stale = true;
         self.changes += 1;
         self.amplitudes.clear();
+        self.modal = None;
+        // What the change has excited beside the leading roots is given time to die away.
+        let longest = drivers.iter().map(|d| d.reaction_time).fold(0.0, f64::max);
+        self.modal_from = step + scenario.steps(20.0 * longest);
+    }
+
+    /// Looks at all modes, beyond the fastest by as far again.
+    fn record_modes(&mut self) {
+        if self.stale {
+            return;
+        }
+        let Verdict { lane, mode, .. } = self.verdict;
+        let most = self.simulation.vehicles_per_lane()[lane - 1] / 2;
+        let modes = (2 * mode.unwrap_or(1)).clamp(10, 40).min(most);
+        let (every, from) = (self.every, self.modal_from);
+        let modal = self.modal.get_or_insert_with(|| Modal::new(every, modes, lane - 1, from, LINEAR));
+        if modal.rows() < MODAL_ROWS {
+            modal.observe(&self.simulation);
+        }
+    }
+
+    /// The characteristic roots of the lane that the verdict speaks of: of some `most` modes, each with so many
+    /// `others` beside the dominant one.
+    pub fn roots(&mut self, others: usize, most: usize) -> Roots {
+        let place = self.verdict().lane - 1;
+        let drivers = self.lanes()[place].iter().map(|&j| *self.simulation.driver(j)).collect();
+        let scenario = self.simulation.scenario();
+        let lane = verdict::lane(drivers, scenario.time_step);
+        roots_of_lane(&lane, scenario.length, scenario.time_step, others, most)
+    }
+
+    /// Growth of the modes of that lane since the last change, a row for each: the table `growth`.
+    pub fn modal_growth(&self) -> Option<Table> {
+        self.modal.as_ref().map(Probe::table)
+    }
+
+    /// From when on that growth is looked at, s.
+    pub fn modal_from(&self) -> f64 {
+        self.modal_from as f64 * self.simulation.scenario().time_step
     }
 
     /// The vehicles of each lane in the order of the road, from the lowest number on.
@@ -257,6 +311,7 @@ impl Live {
         self.record_column(&lanes);
         self.record_row();
         self.record_amplitude(&lanes);
+        self.record_modes();
     }
 
     fn record_column(&mut self, lanes: &[Vec<usize>]) {
@@ -468,6 +523,14 @@ impl Live {
             rest = others;
         }
         Ok(verdict(&lanes, scenario.length, scenario.time_step))
+    }
+
+    /// What theory would say with so many vehicles at that reaction time, both as typed.
+    pub fn preview_point(&self, vehicles: &str, reaction_time: &str) -> Result<Verdict, Invalid> {
+        if vehicles.parse() == Ok(self.simulation.vehicles()) {
+            return self.preview("reaction_time", reaction_time);
+        }
+        Self::new(&self.with("vehicles", vehicles)?)?.preview("reaction_time", reaction_time)
     }
 
     /// The same scenario from its beginning, with all its actions, or with those at t = 0 only.

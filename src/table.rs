@@ -115,6 +115,14 @@ impl Table {
         })
     }
 
+    /// The words of the column of that name.
+    pub fn texts(&self, name: &str) -> Option<&[String]> {
+        self.columns.iter().find(|c| c.name == name).and_then(|c| match &c.values {
+            Values::Text(v) => Some(v.as_slice()),
+            _ => None,
+        })
+    }
+
     /// The table as CSV, with what made it in the header.
     pub fn to_csv(&self, scenario: &Scenario, measurement: &Measurement) -> String {
         let mut out = String::new();

@@ -10,6 +10,7 @@ mod parameters;
 mod presets;
 mod progress;
 mod replay;
+mod reproduce;
 mod run;
 mod stability;
 mod summary;
@@ -31,11 +32,14 @@ pub(crate) struct Subcommand {
 /// Every subcommand, in the order in which the help shows them.
 const SUBCOMMANDS: &[Subcommand] = &[
     run::SUBCOMMAND,
+    stability::SUBCOMMAND,
+    reproduce::SUBCOMMAND,
     batch::SUBCOMMAND,
     stability::SUBCOMMAND,
     presets::SUBCOMMAND,
     parameters::SUBCOMMAND,
     replay::SUBCOMMAND,
+    reproduce::SUBCOMMAND,
 ];
 
 /// Why there is no result.

@@ -72,6 +72,16 @@ impl Growth {
         }
     }
 
+    /// The step from which on states are looked at.
+    pub fn from(&self) -> u64 {
+        self.from
+    }
+
+    /// Rows held so far.
+    pub fn rows(&self) -> usize {
+        self.times.len()
+    }
+
     /// Why a row is outside the linear window of a mode.
     fn outside(&self, mode: usize, row: usize) -> Option<&'static str> {
         let (second_order, amplitude) = (self.second_order[row], self.amplitudes[mode][row]);

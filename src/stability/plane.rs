@@ -8,7 +8,6 @@ use crate::parameters::Parameter;
 use crate::scenario::Scenario;
 use crate::table::{Column, Table};
 use serde::Serialize;
-use std::ops::RangeInclusive;
 
 /// The lanes of equal drivers into which `vehicles` are dealt; lanes with as many vehicles count once.
 fn lanes(scenario: &Scenario, vehicles: usize) -> Vec<EqualRing> {
@@ -34,20 +33,30 @@ pub struct Curves {
     pub newell_s: Vec<Option<f64>>,
 }
 
+/// Numbers of vehicles at which a picture of the plane asks for its curves: from 2 to the jam, or to the scenario's
+/// own number where that is larger, evenly spread, not many more than `points`. The last is always among them.
+pub fn numbers(scenario: &Scenario, points: usize) -> Vec<usize> {
+    let room = scenario.length * scenario.lanes as f64 / scenario.driver.min_headway;
+    let last = (room as usize).max(scenario.vehicles).max(2);
+    let stride = last.div_ceil(points.max(1));
+    let mut numbers: Vec<_> = (2..last).step_by(stride).collect();
+    numbers.push(last);
+    numbers
+}
+
 /// The curves of the plane.
-pub fn curves(scenario: &Scenario, vehicles: RangeInclusive<usize>) -> Curves {
+pub fn curves(scenario: &Scenario, vehicles: impl IntoIterator<Item = usize>) -> Curves {
+    let vehicles: Vec<_> = vehicles.into_iter().collect();
     let least = |n: usize, of: &dyn Fn(&EqualRing) -> f64| {
         let smallest = lanes(scenario, n).iter().map(of).fold(f64::INFINITY, f64::min);
         smallest.is_finite().then_some(smallest)
     };
-    let column = |of: &dyn Fn(&EqualRing) -> f64| vehicles.clone().map(|n| least(n, of)).collect();
+    let column = |of: &dyn Fn(&EqualRing) -> f64| vehicles.iter().map(|&n| least(n, of)).collect();
     let time = Time::Steps(scenario.time_step);
-    Curves {
-        vehicles: vehicles.clone().collect(),
-        continuous_s: column(&|ring| ring.critical(Time::Continuous)),
-        discrete_s: column(&|ring| ring.critical(time)),
-        newell_s: column(&EqualRing::newell_limit),
-    }
+    let continuous_s = column(&|ring| ring.critical(Time::Continuous));
+    let discrete_s = column(&|ring| ring.critical(time));
+    let newell_s = column(&EqualRing::newell_limit);
+    Curves { vehicles, continuous_s, discrete_s, newell_s }
 }
 
 /// Critical reaction times (s) of all modes 1 … ⌊n/2⌋ of a lane of n vehicles: continuous time and steps.
@@ -236,6 +245,17 @@ mod tests {
         let scenario = Scenario { lanes: 2, ..Scenario::default() };
         let one = curves(&Scenario::default(), 51..=51);
         assert_eq!(curves(&scenario, 101..=101).continuous_s, one.continuous_s);
+    }
+
+    #[test]
+    fn pictures_reach_from_two_vehicles_to_the_jam() {
+        let scenario = Scenario::default();
+        assert_eq!(numbers(&scenario, 400), (2..=133).collect::<Vec<_>>());
+        assert_eq!(numbers(&Scenario { vehicles: 150, ..scenario.clone() }, 400).last(), Some(&150));
+        let road = Scenario { length: 1e5, lanes: 2, ..scenario };
+        let spread = numbers(&road, 400);
+        assert!(spread.len() <= 401 && spread.last() == Some(&26_666), "{}", spread.len());
+        assert!(spread.windows(2).all(|w| w[0] < w[1]));
     }
 
     #[test]

@@ -177,6 +177,10 @@ pub struct ModeRoot {
 pub fn leading_roots(scenario: &Scenario, lane: usize, count: usize) -> Vec<ModeRoot> {
     let lane = lanes_of(scenario).swap_remove(lane);
     let (ring, _) = rings(&lane, scenario.length, scenario.time_step);
+    roots_of_modes(&ring, 1..=ring.vehicles() / 2, count)
+}
+
+fn roots_of_modes(ring: &Ring, modes: impl Iterator<Item = usize>, count: usize) -> Vec<ModeRoot> {
     let root = |mode: usize, branch: i32, s: Complex64, residual: f64| ModeRoot {
         mode,
         branch,
@@ -184,7 +188,6 @@ pub fn leading_roots(scenario: &Scenario, lane: usize, count: usize) -> Vec<Mode
         imaginary_per_s: s.im,
         residual,
     };
-    let modes = 1..=ring.vehicles() / 2;
     if let Some((equal, delay)) = ring.equal() {
         let of_mode = |q: usize| {
             let roots = equal.leading_roots(q, delay, count).into_iter();
@@ -203,6 +206,49 @@ pub fn leading_roots(scenario: &Scenario, lane: usize, count: usize) -> Vec<Mode
         roots
     };
     modes.flat_map(of_mode).collect()
+}
+
+/// The roots of a lane as a picture shows them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Roots {
+    /// Vehicles in the lane.
+    pub vehicles: usize,
+    /// Whether all its drivers are the same to the theory, so that its modes are Fourier's.
+    pub equal_drivers: bool,
+    /// The modes shown.
+    pub modes: Vec<usize>,
+    /// Growth rate (1/s) of each in the simulation's steps; `None` where the root could not be followed.
+    pub growth_per_s: Vec<Option<f64>>,
+    /// Angular frequency (1/s) of each in steps.
+    pub frequency_per_s: Vec<Option<f64>>,
+    /// The next roots of the modes, in continuous time.
+    pub next: Vec<ModeRoot>,
+}
+
+/// The dominant root of every mode in the steps of the simulation, and the next `others` of each in continuous
+/// time; of some `most` modes, evenly spread, where there are more.
+pub fn roots_of_lane(lane: &Lane, length: f64, time_step: f64, others: usize, most: usize) -> Roots {
+    let (continuous, in_steps) = rings(lane, length, time_step);
+    let last = continuous.vehicles() / 2;
+    if continuous.is_jammed() || last == 0 {
+        return Roots { vehicles: continuous.vehicles(), ..Roots::default() };
+    }
+    let modes: Vec<usize> = (1..=last).step_by(last.div_ceil(most.max(1))).collect();
+    let time = Time::Steps(time_step);
+    let dominant: Vec<_> = match in_steps.equal() {
+        Some((equal, delay)) => modes.iter().map(|&q| Some(equal.root(q, delay, time))).collect(),
+        None => modes.iter().map(|&q| in_steps.follow(q, 0, time)).collect(),
+    };
+    let mut next = roots_of_modes(&continuous, modes.iter().copied(), others + 1);
+    next.retain(|root| root.branch != 0);
+    Roots {
+        vehicles: continuous.vehicles(),
+        equal_drivers: in_steps.equal().is_some(),
+        growth_per_s: dominant.iter().map(|s| s.map(|s| s.re)).collect(),
+        frequency_per_s: dominant.iter().map(|s| s.map(|s| s.im)).collect(),
+        modes,
+        next,
+    }
 }
 
 /// Whether no disturbance grows.
@@ -435,6 +481,26 @@ mod tests {
         assert!((0.95..1.0).contains(&scale), "{scale}");
         scenario.exceptions = vec!["11-15:reaction-time=0".parse().unwrap()];
         assert!(Report::of(&scenario).stable);
+    }
+
+    /// The largest growth rate among the roots of a picture is the report's; all next roots lie to the left.
+    #[test]
+    fn roots_of_a_picture_and_the_report_agree() {
+        let mut mixed = scenario(0.75);
+        mixed.exceptions = vec!["1-4:reaction-time=0.3".parse().unwrap()];
+        for scenario in [scenario(0.5), scenario(0.75), mixed] {
+            let lane = lanes_of(&scenario).remove(0);
+            let roots = roots_of_lane(&lane, 1000.0, 0.01, 1, 200);
+            let largest = roots.growth_per_s.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
+            let report = Report::of(&scenario);
+            assert_eq!((roots.modes.len(), roots.equal_drivers), (25, report.equal_drivers));
+            assert!((largest - report.max_growth_rate_discrete_per_s.unwrap()).abs() < 1e-12);
+            let dominant = report.max_growth_rate_per_s.unwrap();
+            assert_eq!(roots.next.len(), 25);
+            assert!(roots.next.iter().all(|root| root.branch != 0 && root.real_per_s < dominant));
+        }
+        let jam = Scenario { vehicles: 150, ..scenario(1.0) };
+        assert!(roots_of_lane(&lanes_of(&jam)[0], 1000.0, 0.01, 1, 200).modes.is_empty());
     }
 
     #[test]

@@ -1,5 +1,5 @@
 // The page: opens the core, builds the views, listens to keys.
-import { base, readHash, writeHash } from './address'
+import { base, type PageOptions, readHash, writeHash } from './address'
 import { openCore } from './client/open'
 import { el } from './dom'
 import { Session } from './session'
@@ -8,12 +8,14 @@ import { actionsView } from './views/actions'
 import { carView } from './views/car'
 import { brakeWatched, controlsView, nudgeWatched } from './views/controls'
 import { filesDialog, helpDialog, shareDialog } from './views/dialogs'
+import { doors } from './views/doors'
 import { headerView } from './views/header'
 import { lanesView } from './views/lanes'
 import { liveView } from './views/live'
 import { mapView } from './views/map'
 import { ringView } from './views/ring'
 import { speedsView } from './views/speeds'
+import { stabilityView } from './views/stability'
 import { tabs } from './views/tabs'
 import { transportView } from './views/transport'
 import { troubleView } from './views/trouble'
@@ -24,17 +26,21 @@ async function run(app: HTMLElement): Promise<void> {
   const dark = matchMedia('(prefers-color-scheme: dark)')
   const session = new Session(client, start, dark.matches)
   const options = readHash(location.hash)
-  if (options.view) document.body.dataset.view = options.view
+  const own = document.body.dataset.view as PageOptions['view']
+  let { view } = options
+  if (view) document.body.dataset.view = view
 
   const verdict = verdictView(session)
   const share = shareDialog(session, base)
   const files = filesDialog(session)
   const help = helpDialog(session)
-  const header = headerView(session, { share, files, help })
+  const { link: figures, show } = doors(session, app)
+  const header = headerView(session, { share, files, help, figures })
   const ring = ringView(session, transportView(session))
   const controls = controlsView(session, verdict.preview)
   const map = await mapView(session)
   const more = tabs([
+    { id: 'stability', name: text.tabs.stability, panel: stabilityView(session, verdict.preview) },
     { id: 'lanes', name: text.tabs.lanes, panel: lanesView(session) },
     { id: 'car', name: text.tabs.car, panel: carView(session) },
     { id: 'actions', name: text.tabs.actions, panel: actionsView(session) },
@@ -60,10 +66,12 @@ async function run(app: HTMLElement): Promise<void> {
   session.on('snapshot', ({ link }) => {
     if (link === written) return
     written = link
-    writeHash(link, options.view)
+    writeHash(link, view)
   })
   window.addEventListener('hashchange', () => {
-    const { scenario } = readHash(location.hash)
+    const { view: wanted, scenario } = readHash(location.hash)
+    view = wanted
+    void show(wanted ?? own)
     if (scenario !== written) {
       written = scenario
       void session.open('link', scenario)
@@ -74,12 +82,14 @@ async function run(app: HTMLElement): Promise<void> {
   dark.addEventListener('change', () => void session.look({ dark: dark.matches }))
   document.addEventListener('keydown', event => key(session, help, event))
   // Who asks for less motion starts the motion.
-  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) session.play()
+  const figuresFirst = document.body.dataset.view === 'figures'
+  if (figuresFirst) await show('figures')
+  else if (!matchMedia('(prefers-reduced-motion: reduce)').matches) session.play()
   Object.assign(window, { ringroad: session })
 }
 
 function key(session: Session, help: HTMLDialogElement, event: KeyboardEvent): void {
-  if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return
+  if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]') || document.body.dataset.view === 'figures') return
   const at = event.target as HTMLElement
   // Where letters are typed they are letters; a focused button has the space bar for itself.
   const typing = at.matches('textarea, select, input:not([type=range]):not([type=checkbox])')

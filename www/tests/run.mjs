@@ -3,6 +3,8 @@ import { runAll } from './harness.mjs'
 
 await import('./places.mjs')
 await import('./traffic.mjs')
+await import('./stability.mjs')
 await import('./input.mjs')
 await import('./manners.mjs')
+await import('./figures.mjs')
 await runAll(process.argv[2])

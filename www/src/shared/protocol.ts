@@ -43,12 +43,14 @@ export interface Verdict {
   readonly stable: boolean | null
   /** Whether all drivers are alike. */
   readonly alike: boolean
-  /** Delay in force, s: the largest where drivers differ. */
+  /** Delay in force, s: the mean where drivers differ. */
   readonly reaction_time: number
   /** Largest stable reaction time in continuous time, s; null: every one is stable. */
   readonly critical: number | null
   /** The same for the run's time step. */
   readonly critical_discrete: number | null
+  /** Drivers that differ: by what factor all reaction times may grow before waves do. */
+  readonly scale: number | null
   /** Largest growth rate of the run, 1/s; null where nothing can grow or decay. */
   readonly rate: number | null
   /** Number of jams of the fastest wave. */
@@ -69,6 +71,46 @@ export interface Growth {
   /** Seconds looked back. */
   readonly window: number
   readonly mode: number
+}
+
+/** Critical reaction times (s) over the number of vehicles; null where every one is stable. */
+export interface Curves {
+  readonly vehicles: readonly number[]
+  readonly continuous_s: readonly (number | null)[]
+  readonly discrete_s: readonly (number | null)[]
+  readonly newell_s: readonly (number | null)[]
+}
+
+/** Characteristic roots of the lane that the verdict speaks of, 1/s. */
+export interface Roots {
+  readonly vehicles: number
+  readonly equal_drivers: boolean
+  readonly modes: readonly number[]
+  /** The dominant root of each mode, in the run's steps. */
+  readonly growth_per_s: readonly (number | null)[]
+  readonly frequency_per_s: readonly (number | null)[]
+  /** The next ones, in continuous time. */
+  readonly next: readonly { readonly mode: number; readonly real_per_s: number; readonly imaginary_per_s: number }[]
+}
+
+/** Growth of one mode since the last change; null where there is none yet. */
+export interface ModeGrowth {
+  readonly mode: number
+  /** 1/s. */
+  readonly rate: number | null
+  readonly standard_error: number | null
+  /** By theory, where drivers are alike. */
+  readonly predicted: number | null
+  /** The time in which the mode was small enough to be linear, s. */
+  readonly from: number | null
+  readonly to: number | null
+  readonly ended_by: string
+}
+
+export interface ModesGrowth {
+  /** From when on it is looked at, s. */
+  readonly starts: number
+  readonly modes: readonly ModeGrowth[]
 }
 
 /** What changes by actions and settings only. */
@@ -178,6 +220,32 @@ export interface Opened {
   readonly messages: readonly string[]
 }
 
+/** A figure of the paper, or beyond it. */
+export interface FigureInfo {
+  readonly id: string
+  readonly title: string
+  readonly caption: string
+  readonly beyond: boolean
+  /** Pieces of work. */
+  readonly pieces: number
+}
+
+/** A claim of the paper beside what is measured; numbers with their units. */
+export interface Claim {
+  readonly claim: string
+  readonly paper: string
+  readonly ours: string
+  readonly verdict: 'agrees' | 'differs' | 'open'
+  readonly method: string
+}
+
+/** What a figure gives. */
+export interface FigureOutcome {
+  readonly svg: string
+  readonly claims: readonly Claim[]
+  readonly tables: readonly { readonly name: string; readonly csv: string }[]
+}
+
 /** Every request with its answer. */
 export interface Requests {
   start: { ask: { wasm: ArrayBuffer }; answer: Start }
@@ -195,6 +263,11 @@ export interface Requests {
   set: { ask: { name: string; value: string }; answer: Snapshot }
   /** What the verdict would be. */
   preview: { ask: { name: string; value: string }; answer: Verdict }
+  /** The same for a point of the stability plane. */
+  previewPoint: { ask: { vehicles: number; reactionTime: number }; answer: Verdict }
+  plane: { ask: Record<string, never>; answer: Curves }
+  roots: { ask: Record<string, never>; answer: Roots }
+  modes: { ask: Record<string, never>; answer: ModesGrowth }
   /** Goes to a time, by replaying from the start. */
   seek: { ask: { time: number }; answer: Snapshot }
   /** Takes one action out of the list and replays. */
@@ -209,6 +282,11 @@ export interface Requests {
   /** Replays the run so far and measures it. */
   csv: { ask: { measurement: string }; answer: string }
   cancel: { ask: Record<string, never>; answer: null }
+  figures: { ask: Record<string, never>; answer: readonly FigureInfo[] }
+  /** One piece of a figure's work, from 0. */
+  piece: { ask: { figure: string; piece: number }; answer: Float64Array }
+  /** All pieces put together. */
+  assemble: { ask: { figure: string; pieces: Float64Array[] }; answer: FigureOutcome }
 }
 export type Name = keyof Requests
 export type Ask<K extends Name> = Requests[K]['ask']

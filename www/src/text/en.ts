@@ -4,6 +4,8 @@ import { exactly, fixed, span, unit } from '../format'
 import type { Growth, Verdict } from '../shared/protocol'
 
 const seconds = (s: number) => unit(fixed(s, 3), 's')
+/** A critical reaction time; none where every one is stable. */
+const tau = (s: number | null) => (s === null ? '–' : unit(exactly(s, 3), 's'))
 const jams = (n: number) => (n === 1 ? '1 jam' : `${n} jams`)
 const pace = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
 
@@ -25,6 +27,8 @@ export const en = {
     choose: 'Experiments …',
     share: 'Share',
     files: 'Data',
+    figures: 'Paper figures',
+    lab: 'Laboratory',
     help: 'Help',
     fullscreen: 'Full screen',
     theme: 'Light or dark',
@@ -44,6 +48,11 @@ export const en = {
     open: 'No wave',
     critical: (v: Verdict): string => {
       if (v.stable === null) return 'No wave can run on this ring: its vehicles stand, or there is only one.'
+      if (!v.alike && v.scale !== null) {
+        return v.stable
+          ? `With these drivers every small wave fades, up to reaction times ${fixed(v.scale, 2)} times as long.`
+          : `With these drivers a small wave grows; it would fade with ${fixed(v.scale, 2)} times their reaction times.`
+      }
       if (!v.alike || v.critical_discrete === null) {
         return v.stable
           ? 'With these drivers every small wave fades.'
@@ -279,15 +288,90 @@ export const en = {
   },
 
   plane: {
+    title: 'Where waves grow',
     stable: 'stable',
     unstable: 'unstable',
-    newell: 'Newell’s limit',
     vehicles: 'vehicles N',
     reaction: 'reaction time Δ (s)',
-    canvas: 'Stability plane: vehicles to the right, reaction time upwards. Arrow keys move the point.',
-    value: (n: number, delta: number): string => `${n} vehicles, reaction time ${fixed(delta, 2)} seconds`,
-    continuous: 'τ(N), continuous time',
-    discrete: (dt: string): string => `in steps of ${dt} s`,
+    handle: 'Vehicles and reaction time',
+    kind: 'two-way slider',
+    hint: 'Drag the point, or use its arrow keys: ← → vehicles, ↑ ↓ reaction time. A new N starts again.',
+    value: (n: number, delta: number, state: string): string =>
+      `${n} vehicles, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
+    drag: 'drag the point',
+    /** A curve and its value at the point's N. */
+    discrete: (dt: string, s: number | null): string => `τ in steps of ${dt} s: ${tau(s)}`,
+    continuous: (s: number | null): string => `τ, continuous time: ${tau(s)}`,
+    newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
+    describe: (n: number, discrete: number | null, continuous: number | null, newell: number | null): string =>
+      `The plane of vehicles and reaction time. With ${n} vehicles the curve stands at ${tau(discrete)}, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`,
+    common: 'The curves are those of the drivers without an exception.',
+  },
+
+  roots: {
+    title: 'Characteristic roots',
+    note: (n: number): string => `${n === 1 ? '1 mode' : `${n} modes`}, s in 1/s`,
+    real: 'growth Re s (1/s)',
+    imaginary: 'Im s (1/s)',
+    dominant: 'leading root of each mode',
+    next: 'next roots',
+    fades: 'fades',
+    grows: 'grows',
+    describe: (right: readonly number[], count: number, fastest: string): string =>
+      `${right.length === 0 ? `All ${count} modes lie left of the imaginary axis: they fade.` : `Right of the imaginary axis, growing: ${right.length === 1 ? 'mode' : 'modes'} ${right.join(', ')} of ${count}.`} ${fastest}`,
+    largest: (mode: number, rate: number): string => `Mode ${mode} has the largest growth rate, ${unit(exactly(rate, 4), '1/s')}.`,
+    none: 'Nothing moves here: no roots.',
+  },
+
+  modes: {
+    title: 'Growth, measured',
+    axis: 'mode q',
+    rate: 'growth (1/s)',
+    predicted: 'theory',
+    measured: 'measured',
+    waiting: (t: number): string => `Measuring from t = ${unit(fixed(t, 1), 's')} on …`,
+    quiet: 'No wave to measure: nudge a car.',
+    linear: (from: number): string => `Linear since t = ${unit(fixed(from, 1), 's')}.`,
+    left: (to: number): string => `Left the linear regime at t = ${unit(fixed(to, 1), 's')}.`,
+    disturbed: (to: number): string => `Disturbed at t = ${unit(fixed(to, 1), 's')}.`,
+    faded: (to: number): string => `Faded into rounding at t = ${unit(fixed(to, 1), 's')}.`,
+    large: 'Waves are too large now for linear theory.',
+    differ: 'Drivers differ: the modes mix, and theory knows the ring as a whole.',
+    one: (mode: number, rate: number, predicted: number | null): string =>
+      `mode ${mode}: ${exactly(rate, 4)}${predicted === null ? '' : ` against ${exactly(predicted, 4)}`}`,
+    describe: (list: string): string => (list === '' ? 'Growth of each mode: nothing measured yet.' : `Growth per second, measured against theory: ${list}.`),
+  },
+
+  figures: {
+    title: 'The paper, figure by figure',
+    intro:
+      'Every figure is computed here, in this browser, and what the paper claims is held against what comes out. A verdict is computed, too: from the value, its uncertainty and the tolerance of the row.',
+    all: 'Run all',
+    run: 'Run',
+    again: 'Run again',
+    runLabel: (title: string): string => `Run: ${title}`,
+    cancel: 'Cancel',
+    cancelAll: 'Cancel all',
+    cancelLabel: (title: string): string => `Cancel: ${title}`,
+    beyond: 'beyond the paper',
+    starting: 'Starting …',
+    waiting: 'Waiting for the figure before it.',
+    running: (done: number, of: number): string => `${done} of ${of} pieces of work`,
+    assembling: 'Putting it together …',
+    done: (seconds: number, workers: number): string =>
+      `Done in ${span(seconds)}${workers === 0 ? '' : workers === 1 ? ', one worker' : `, ${workers} workers`}.`,
+    cancelled: 'Cancelled.',
+    failed: (why: string): string => `That did not work: ${why}`,
+    progress: (title: string): string => `Progress: ${title}`,
+    plot: (title: string): string => `Picture: ${title}`,
+    save: 'Save',
+    noClaims: 'The paper claims nothing here.',
+    columns: { claim: 'Claim', paper: 'Paper', ours: 'Ours', verdict: 'Verdict', method: 'How it was measured' },
+    verdicts: { agrees: 'agrees', differs: 'differs', open: 'not determined by the paper' },
+    symbols: { agrees: '✓', differs: '✗', open: '?' },
+    summary: (agree: number, differ: number, open: number): string =>
+      `${agree + differ + open} claims: ${agree} agree, ${differ} differ, ${open} not determined by the paper.`,
+    point: (panel: string, x: string, y: string): string => `${panel}: ${x}, ${y}`,
   },
 }
 

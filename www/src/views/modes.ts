@@ -1,0 +1,113 @@
+// Growth of each mode as the run shows it, beside what theory says.
+import { drawing, el, style } from '../dom'
+import type { ModesGrowth, Roots } from '../shared/protocol'
+import { text } from '../text'
+import { axes, frame, ticks, word } from './axes'
+import { roundSteps } from './map'
+
+const t = text.modes
+
+/** What the run has to say of the mode that theory calls the fastest. */
+function status(measured: ModesGrowth, alike: boolean, fastest: number | null, time: number): string {
+  const lead = measured.modes.find(m => m.mode === fastest)
+  if (!lead) return ''
+  if (lead.from === null || lead.to === null) {
+    if (time < measured.starts) return t.waiting(measured.starts)
+    return lead.ended_by === 'sank into rounding' ? t.quiet : t.large
+  }
+  const ended = { 'end of the run': t.linear(lead.from), 'left the linear regime': t.left(lead.to), disturbed: t.disturbed(lead.to), 'sank into rounding': t.faded(lead.to) }[lead.ended_by]
+  return [ended ?? '', alike ? '' : t.differ].join(' ').trim()
+}
+
+export function modesView() {
+  const canvas = el('canvas', { role: 'img', 'aria-label': t.describe('') })
+  const said = el('p', { class: 'small', id: 'modes-status' })
+  const element = el(
+    'section',
+    { id: 'modes', 'aria-labelledby': 'modes-title' },
+    el('h3', { id: 'modes-title' }, t.title),
+    el('div', { class: 'field' }, canvas),
+    el('div', { class: 'keys marks' }, el('span', { class: 'theory' }, t.predicted), el('span', { class: 'measured-mark' }, t.measured)),
+    said,
+  )
+  let theory: Roots | null = null
+  let measured: ModesGrowth | null = null
+  const redraw = drawing(canvas, (c, w, h) => {
+    if (!theory || !measured || measured.modes.length === 0) return
+    const count = measured.modes.length
+    const predicted = theory.equal_drivers
+      ? theory.modes.flatMap((mode, k) => {
+          const rate = theory!.growth_per_s[k]
+          return mode <= count && typeof rate === 'number' ? [{ mode, rate }] : []
+        })
+      : []
+    const dots = measured.modes.flatMap(m => (m.rate === null ? [] : [{ mode: m.mode, rate: m.rate, error: m.standard_error ?? 0 }]))
+    const rates = [0, ...predicted.map(p => p.rate), ...dots.map(d => d.rate)]
+    const span = Math.max(Math.max(...rates) - Math.min(...rates), 1e-4)
+    const low = Math.min(...rates) - 0.08 * span
+    const high = Math.max(...rates) + 0.16 * span
+    const f = frame(w, h, 46)
+    const x = (mode: number) => f.left + ((f.right - f.left) * (mode - 0.5)) / count
+    const y = (rate: number) => f.bottom - ((f.bottom - f.top) * (rate - low)) / (high - low)
+    c.fillStyle = style('--bad-ground')
+    c.fillRect(f.left, f.top, f.right - f.left, y(0) - f.top)
+    const marks = roundSteps(1, count, 6).filter(Number.isInteger)
+    axes(c, f, ticks(marks, x), ticks(roundSteps(low, high, 4), y), { x: t.axis, y: t.rate })
+    c.strokeStyle = style('--ink')
+    c.lineWidth = 1.5
+    c.beginPath()
+    c.moveTo(f.left, y(0))
+    c.lineTo(f.right, y(0))
+    c.stroke()
+    c.strokeStyle = style('--accent')
+    c.lineWidth = 1.5
+    c.beginPath()
+    predicted.forEach((p, k) => (k === 0 ? c.moveTo(x(p.mode), y(p.rate)) : c.lineTo(x(p.mode), y(p.rate))))
+    c.stroke()
+    for (const p of predicted) {
+      c.beginPath()
+      c.arc(x(p.mode), y(p.rate), 4, 0, 7)
+      c.fillStyle = style('--card')
+      c.fill()
+      c.stroke()
+    }
+    c.save()
+    c.beginPath()
+    c.rect(f.left, f.top, f.right - f.left, f.bottom - f.top)
+    c.clip()
+    c.strokeStyle = c.fillStyle = style('--ink')
+    for (const d of dots) {
+      const [px, py] = [x(d.mode), y(d.rate)]
+      c.beginPath()
+      c.moveTo(px, y(d.rate - d.error))
+      c.lineTo(px, y(d.rate + d.error))
+      c.stroke()
+      c.beginPath()
+      c.moveTo(px, py - 4)
+      c.lineTo(px + 3, py)
+      c.lineTo(px, py + 4)
+      c.lineTo(px - 3, py)
+      c.closePath()
+      c.fill()
+    }
+    c.restore()
+    c.font = '12.5px system-ui, "DejaVu Sans", sans-serif'
+    c.textAlign = 'right'
+    c.textBaseline = 'middle'
+    if (y(0) - f.top > 16) word(c, text.roots.grows, f.right - 5, f.top + 10, style('--bad'))
+  })
+  return {
+    element,
+    redraw,
+    show(roots: Roots, growth: ModesGrowth, fastest: number | null, time: number) {
+      theory = roots
+      measured = growth
+      const alike = roots.equal_drivers
+      const list = growth.modes.flatMap(m => (m.rate === null ? [] : [t.one(m.mode, m.rate, alike ? m.predicted : null)]))
+      canvas.setAttribute('aria-label', t.describe(list.join('; ')))
+      const words = status(growth, alike, fastest, time)
+      if (said.textContent !== words) said.textContent = words
+      redraw()
+    },
+  }
+}
