@@ -14,7 +14,7 @@ export function roundSteps(low: number, high: number, most: number): number[] {
   const power = 10 ** Math.floor(Math.log10(rough))
   const step = [1, 2, 3, 5, 6, 10].map(k => k * power).find(s => s >= rough) ?? 10 * power
   const steps = []
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) steps.push(k * step)
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) steps.push(k * step + 0)
   return steps
 }
 

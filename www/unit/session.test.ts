@@ -1,0 +1,118 @@
+import { beforeEach, expect, test, vi } from 'vitest'
+import { type Client, Cancelled, Refusal } from '../src/client/client'
+import { Session, append } from '../src/session'
+import type { Answer, Ask, Frame, Name, Snapshot, Start } from '../src/shared/protocol'
+
+/** A client that answers from a table and remembers what it was asked. */
+class FakeClient implements Client {
+  readonly place = 'page'
+  readonly budget = 8
+  asked: [Name, unknown][] = []
+  step = 0
+  epoch = 0
+  refuse: Error | null = null
+  async ask<K extends Name>(name: K, ask: Ask<K>): Promise<Answer<K>> {
+    this.asked.push([name, ask])
+    if (this.refuse && name !== 'advance' && name !== 'view') throw this.refuse
+    if (name === 'advance') {
+      const { steps } = ask as Ask<'advance'>
+      this.step += steps
+      return frame(this.step, steps, this.epoch) as Answer<K>
+    }
+    if (name === 'view') return { ring: { colours: [], ticks: [] }, map: { colours: [], ticks: [] } } as unknown as Answer<K>
+    if (name === 'link' || name === 'file' || name === 'preset') return { snapshot: snapshot(), messages: name === 'link' ? ['a bad entry'] : [] } as unknown as Answer<K>
+    return snapshot() as Answer<K>
+  }
+}
+const frame = (step: number, taken: number, epoch: number) =>
+  ({ step, taken, time: step * 0.01, finished: false, collision: null, epoch, changes: 1, rows: Float64Array.of(step * 0.01, 10, Number.NaN, 0, 11) }) as unknown as Frame
+const snapshot = () => ({ scenario: { vehicles: 10, lanes: 1, time_step: 0.01 }, watched: [1], interval: 0.5, changes: 1 }) as unknown as Snapshot
+const start = { map: { columns: 4, bins: 10 } } as Start
+
+let frames: ((now: number) => void)[] = []
+let now = 0
+beforeEach(() => {
+  frames = []
+  now = 0
+  vi.stubGlobal('document', { hidden: false })
+  vi.stubGlobal('performance', { now: () => now })
+  vi.stubGlobal('requestAnimationFrame', (f: (now: number) => void) => frames.push(f))
+})
+const tick = async (ms: number) => {
+  now += ms
+  for (const f of frames.splice(0)) f(now)
+  await new Promise(resolve => setTimeout(resolve))
+}
+const opened = async () => {
+  const client = new FakeClient()
+  const session = new Session(client, start, false)
+  await session.open('link', '')
+  client.asked = []
+  return { client, session }
+}
+
+test('messages about a link come out, and the rest is open', async () => {
+  const session = new Session(new FakeClient(), start, false)
+  const seen: (readonly string[])[] = []
+  session.on('trouble', messages => seen.push(messages))
+  expect(await session.open('link', 'x=1')).toBe(true)
+  expect(seen.at(-1)).toEqual(['a bad entry'])
+  expect(session.snapshot.scenario.vehicles).toBe(10)
+})
+
+test('playing asks for the steps that time asks for; a hidden page for none', async () => {
+  const { client, session } = await opened()
+  session.setPlayback(2)
+  session.play()
+  await tick(50)
+  expect(client.asked).toContainEqual(['advance', { steps: 10, budget: 8 }])
+  client.asked = []
+  vi.stubGlobal('document', { hidden: true })
+  await tick(50)
+  expect(client.asked).toEqual([])
+  vi.stubGlobal('document', { hidden: false })
+  await tick(50)
+  expect(client.asked[0]).toEqual(['advance', { steps: 10, budget: 8 }])
+})
+
+test('pause and play in quick succession leave one chain of frames', async () => {
+  const { session } = await opened()
+  session.play()
+  session.pause()
+  session.play()
+  await tick(20)
+  expect(frames.length).toBe(1)
+})
+
+test('a refusal is told and changes nothing; a cancelled request is silent', async () => {
+  const { client, session } = await opened()
+  const before = session.snapshot
+  const seen: string[] = []
+  session.on('trouble', messages => seen.push(...messages))
+  client.refuse = new Refusal('vehicles: 300 is not allowed')
+  expect(await session.set('vehicles', '300')).toBe(false)
+  expect(seen).toEqual(['vehicles: 300 is not allowed'])
+  expect(session.snapshot).toBe(before)
+  client.refuse = new Cancelled('cancelled')
+  expect(await session.seek(5)).toBe(false)
+  expect(seen.length).toBe(1)
+})
+
+test('a run that begins anew begins its charts anew', async () => {
+  const { client, session } = await opened()
+  await session.step()
+  expect(session.series.time.length).toBe(2)
+  client.epoch = 1
+  await session.restart(true)
+  expect(session.series.time.length).toBe(1)
+})
+
+test('charts keep as much as the map shows', () => {
+  const series = { time: [], mean: [], flow: [], imbalance: [], speeds: [[], []] } as Parameters<typeof append>[0]
+  append(series, Float64Array.from({ length: 60 }, (_, k) => k), 4)
+  expect(series.time).toEqual([36, 42, 48, 54])
+  expect(series.speeds).toEqual([
+    [40, 46, 52, 58],
+    [41, 47, 53, 59],
+  ])
+})
