@@ -9,37 +9,27 @@ fn main() {}
 #[cfg(not(target_arch = "wasm32"))]
 mod cases {
     use criterion::{BenchmarkId, Criterion, Throughput};
-    use ringroad::scenario::{Scenario, Start};
+    use ringroad::scenario::Scenario;
     use ringroad::simulation::Simulation;
+    use ringroad::vector::Width;
+    use serde::Deserialize;
     use std::hint::black_box;
+    use std::time::Duration;
 
-    /// 20 m of road a vehicle in each lane, Δ = 0.5 s in steps of 0.01 s, a nudge: stable, never at rest.
-    pub(crate) fn scenario(vehicles: usize, lanes: usize) -> Scenario {
-        let mut scenario = Scenario {
-            vehicles,
-            lanes,
-            length: vehicles as f64 / lanes as f64 * 20.0,
-            until: 1e7,
-            start: Start::Uniform,
-            ..Scenario::default()
-        };
-        scenario.driver.reaction_time = 0.5;
-        scenario.actions.push("at=0:1:nudge=1".parse().unwrap());
-        scenario
+    /// A scenario to be stepped; the file is read by the bench in the browser too.
+    ///
+    /// 20 m of road a vehicle in each lane, steps of 0.01 s, a nudge: stable, never at rest. On one lane Δ = 0.5 s;
+    /// with lane changes no delay, as in the paper, and a tenth of the drivers keep the lanes in motion.
+    #[derive(Deserialize)]
+    pub(crate) struct Case {
+        name: String,
+        /// Steps before the clock starts.
+        warm_up: u64,
+        scenario: Scenario,
     }
 
-    pub(crate) fn mixed(vehicles: usize) -> Scenario {
-        let mut scenario = scenario(vehicles, 1);
-        scenario.exceptions = vec!["20%:sensitivity=1.5,max-speed=35,reaction-time=0.3".parse().unwrap()];
-        scenario
-    }
-
-    /// Lanes with changes: a tenth of the drivers keep the lanes in motion; no delay, as in the paper.
-    pub(crate) fn changing(vehicles: usize, lanes: usize) -> Scenario {
-        let mut scenario = scenario(vehicles, lanes);
-        scenario.driver.reaction_time = 0.0;
-        scenario.exceptions = vec!["10%:sensitivity=2".parse().unwrap()];
-        scenario
+    fn cases() -> Vec<Case> {
+        serde_json::from_str(include_str!("cases.json")).expect("cases.json")
     }
 
     /// The plain way: one vehicle after the other, libm's exponential, a ring buffer of positions.
@@ -77,23 +67,20 @@ mod cases {
 
     pub(crate) fn all(c: &mut Criterion) {
         let mut group = c.benchmark_group("step");
-        let mut run = |name: &str, scenario: &Scenario, warm_up: u64| {
-            let n = scenario.vehicles;
-            let mut simulation = Simulation::new(scenario).unwrap();
-            simulation.run_to(warm_up);
-            group.throughput(Throughput::Elements(n as u64));
-            group.bench_function(BenchmarkId::new(name, n), |b| b.iter(|| simulation.step()));
-            assert!(simulation.collision().is_none(), "{name} N = {n}: a bench must not end in a collision");
-        };
-        for n in [50, 1000, 100_000] {
-            run("1 lane", &scenario(n, 1), 200);
-        }
-        for n in [50, 1000, 100_000] {
-            run("1 lane, mixed drivers", &mixed(n), 200);
-        }
-        for lanes in [2, 4] {
-            for n in [100, 1000, 100_000] {
-                run(&format!("{lanes} lanes with changes"), &changing(n, lanes), 500);
+        group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
+        let cases = cases();
+        for (mark, width) in [("", Width::widest()), (", 128 bits", Width::NARROWEST)] {
+            for Case { name, warm_up, scenario } in &cases {
+                let (name, n) = (format!("{name}{mark}"), scenario.vehicles);
+                let mut simulation = Simulation::new(scenario).unwrap();
+                simulation.set_width(width);
+                simulation.run_to(*warm_up);
+                group.throughput(Throughput::Elements(n as u64));
+                group.bench_function(BenchmarkId::new(&name, n), |b| b.iter(|| simulation.step()));
+                assert!(
+                    simulation.collision().is_none(),
+                    "{name} N = {n}: a bench must not end in a collision"
+                );
             }
         }
         for n in [50, 1000, 100_000] {
@@ -105,6 +92,7 @@ mod cases {
         let mut group = c.benchmark_group("runs");
         group.sample_size(10);
         let (runs, steps) = (1000_u64, 200_u64);
+        let small = &cases[0].scenario;
         group.throughput(Throughput::Elements(50 * runs * steps));
         group.bench_function("1000 runs of N = 50, 200 steps each", |b| {
             b.iter(|| {
@@ -112,7 +100,7 @@ mod cases {
                 let total: f64 = (0..runs)
                     .into_par_iter()
                     .map(|seed| {
-                        let mut simulation = Simulation::new(&Scenario { seed, ..scenario(50, 1) }).unwrap();
+                        let mut simulation = Simulation::new(&Scenario { seed, ..small.clone() }).unwrap();
                         simulation.run_to(steps);
                         simulation.speed(0)
                     })

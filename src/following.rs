@@ -17,7 +17,7 @@
 use crate::driver::Driver;
 use crate::exp::exp_within;
 use crate::history::History;
-use crate::vector::{CHUNK, Width, kernel};
+use crate::vector::{CHUNK, Chunk, Real, Width, kernel};
 
 /// Steps between full evaluations of all factors.
 pub const REFRESH: u64 = 64;
@@ -69,12 +69,13 @@ struct Laws {
 
 /// A new factor from the old one: by the polynomial, which is wrong where `a` is not small.
 #[inline(always)]
-fn moved(factor: f64, a: f64) -> f64 {
+fn moved<T: Real>(factor: T, a: T) -> T {
     // Taylor's polynomial, Estrin's scheme: short chains, so that a vector unit stays busy.
+    let c = T::all;
     let a2 = a * a;
-    let low = 1.0 + a;
-    let middle = (1.0 / 2.0) + a * (1.0 / 6.0);
-    let high = ((1.0 / 24.0) + a * (1.0 / 120.0)) + a2 * (1.0 / 720.0);
+    let low = c(1.0) + a;
+    let middle = c(1.0 / 2.0) + a * c(1.0 / 6.0);
+    let high = (c(1.0 / 24.0) + a * c(1.0 / 120.0)) + a2 * c(1.0 / 720.0);
     factor * ((low + middle * a2) + high * (a2 * a2))
 }
 
@@ -84,64 +85,63 @@ fn is_small(a: f64) -> bool {
     a.abs() <= SMALL
 }
 
-/// A chunk of a padded slice.
-#[inline(always)]
-fn chunk(slice: &[f64], start: usize) -> &[f64; CHUNK] {
-    (&slice[start..start + CHUNK]).try_into().expect("slices are padded to whole chunks")
+/// The laws of one chunk of vehicles.
+#[derive(Clone, Copy)]
+struct ChunkLaw {
+    max_speed: Chunk,
+    rate: Chunk,
+    min_headway: Chunk,
 }
 
-#[inline(always)]
-fn chunk_mut(slice: &mut [f64], start: usize) -> &mut [f64; CHUNK] {
-    (&mut slice[start..start + CHUNK]).try_into().expect("slices are padded to whole chunks")
+impl ChunkLaw {
+    #[inline(always)]
+    fn common(law: Law) -> Self {
+        let all = Chunk::splat;
+        Self { max_speed: all(law.max_speed), rate: all(law.rate), min_headway: all(law.min_headway) }
+    }
+
+    #[inline(always)]
+    fn of(laws: &Laws, start: usize) -> Self {
+        Self {
+            max_speed: Chunk::load(&laws.max_speed, start),
+            rate: Chunk::load(&laws.rate, start),
+            min_headway: Chunk::load(&laws.min_headway, start),
+        }
+    }
 }
 
 /// New factors, speeds and perceived headways of one chunk of vehicles.
 #[inline(always)]
-fn respond_chunk(
-    scene: &[f64; CHUNK],
-    law: impl Fn(usize) -> Law,
-    refresh: bool,
-    state: &mut State,
-    start: usize,
-) {
-    let perceived = chunk_mut(&mut state.perceived, start);
-    let factor = chunk_mut(&mut state.factor, start);
-    let speed = chunk_mut(&mut state.speed, start);
-    let mut next = [0.0; CHUNK];
-    let mut not_small = 0_u64;
+fn respond_chunk(scene: Chunk, law: ChunkLaw, refresh: bool, state: &mut State, start: usize) {
+    let a = law.rate * (scene - Chunk::load(&state.perceived, start));
+    let mut next = moved(Chunk::load(&state.factor, start), a);
+    if refresh || !a.all_within(SMALL) {
+        next = some_in_full(next, a, law.rate * (scene - law.min_headway), refresh);
+    }
+    let v = law.max_speed - law.max_speed * next;
+    Chunk::splat(0.0).most(v).store(&mut state.speed, start);
+    next.store(&mut state.factor, start);
+    scene.store(&mut state.perceived, start);
+}
+
+/// The exponential in full of `argument`, for all where `all` says so, else where `a` is not small.
+#[inline(always)]
+fn some_in_full(next: Chunk, a: Chunk, argument: Chunk, all: bool) -> Chunk {
+    let (mut next, a, argument) = (next.to_array(), a.to_array(), argument.to_array());
     for j in 0..CHUNK {
-        let a = law(j).rate * (scene[j] - perceived[j]);
-        next[j] = moved(factor[j], a);
-        not_small |= u64::from(!is_small(a));
+        let full = exp_within(argument[j]);
+        next[j] = if all || !is_small(a[j]) { full } else { next[j] };
     }
-    if refresh || not_small != 0 {
-        for j in 0..CHUNK {
-            let law = law(j);
-            let a = law.rate * (scene[j] - perceived[j]);
-            let full = exp_within(law.rate * (scene[j] - law.min_headway));
-            next[j] = if refresh || !is_small(a) { full } else { next[j] };
-        }
-    }
-    for j in 0..CHUNK {
-        let max_speed = law(j).max_speed;
-        let v = max_speed - max_speed * next[j];
-        speed[j] = if v > 0.0 { v } else { 0.0 };
-    }
-    *factor = next;
-    *perceived = *scene;
+    Chunk::load(&next, 0)
 }
 
 kernel! {
     /// One law for all; the leader of j is j + 1: what everyone sees is `offset[j] + (seen[j+1] − seen[j])`.
     fn respond_in_order(offset: &[f64], seen: &[f64], law: Law, refresh: bool, state: &mut State) {
+        let law = ChunkLaw::common(law);
         for start in (0..offset.len()).step_by(CHUNK) {
-            let (offset, leader) = (chunk(offset, start), chunk(&seen[1..], start));
-            let own = chunk(seen, start);
-            let mut scene = [0.0; CHUNK];
-            for j in 0..CHUNK {
-                scene[j] = offset[j] + (leader[j] - own[j]);
-            }
-            respond_chunk(&scene, |_| law, refresh, state, start);
+            let scene = Chunk::load(offset, start) + (Chunk::load(seen, start + 1) - Chunk::load(seen, start));
+            respond_chunk(scene, law, refresh, state, start);
         }
     }
 }
@@ -149,8 +149,9 @@ kernel! {
 kernel! {
     /// One law for all, scenes as given.
     fn respond_alike(scene: &[f64], law: Law, refresh: bool, state: &mut State) {
+        let law = ChunkLaw::common(law);
         for start in (0..scene.len()).step_by(CHUNK) {
-            respond_chunk(chunk(scene, start), |_| law, refresh, state, start);
+            respond_chunk(Chunk::load(scene, start), law, refresh, state, start);
         }
     }
 }
@@ -159,10 +160,7 @@ kernel! {
     /// Everyone has a law of their own.
     fn respond_apart(scene: &[f64], laws: &Laws, refresh: bool, state: &mut State) {
         for start in (0..scene.len()).step_by(CHUNK) {
-            let (max_speed, rate) = (chunk(&laws.max_speed, start), chunk(&laws.rate, start));
-            let min_headway = chunk(&laws.min_headway, start);
-            let law = |j: usize| Law { max_speed: max_speed[j], rate: rate[j], min_headway: min_headway[j] };
-            respond_chunk(chunk(scene, start), law, refresh, state, start);
+            respond_chunk(Chunk::load(scene, start), ChunkLaw::of(laws, start), refresh, state, start);
         }
     }
 }
@@ -171,26 +169,23 @@ kernel! {
     /// Positions: x += v·dt. `extremes` gets the smallest and the largest of the first `vehicles` speeds, which does not
     /// depend on the order of comparisons.
     fn drive(old: &[f64], speed: &[f64], dt: f64, vehicles: usize, new: &mut [f64], extremes: &mut [f64; 2]) {
-        let (mut least, mut most) = ([f64::INFINITY; CHUNK], [f64::NEG_INFINITY; CHUNK]);
+        let (mut least, mut most) = (Chunk::splat(f64::INFINITY), Chunk::splat(f64::NEG_INFINITY));
+        let dt = Chunk::splat(dt);
+        let whole = vehicles - vehicles % CHUNK;
         for start in (0..speed.len()).step_by(CHUNK) {
-            let (old, speed) = (chunk(old, start), chunk(speed, start));
-            let new = chunk_mut(new, start);
-            for j in 0..CHUNK {
-                new[j] = old[j] + speed[j] * dt;
-            }
-            if start + CHUNK <= vehicles {
-                for j in 0..CHUNK {
-                    least[j] = if speed[j] < least[j] { speed[j] } else { least[j] };
-                    most[j] = if speed[j] > most[j] { speed[j] } else { most[j] };
-                }
-            } else {
-                for v in &speed[..vehicles - start] {
-                    least[0] = least[0].min(*v);
-                    most[0] = most[0].max(*v);
-                }
+            let v = Chunk::load(speed, start);
+            (Chunk::load(old, start) + v * dt).store(new, start);
+            if start < whole {
+                (least, most) = (least.least(v), most.most(v));
             }
         }
-        *extremes = [least.into_iter().fold(f64::INFINITY, f64::min), most.into_iter().fold(f64::NEG_INFINITY, f64::max)];
+        *extremes = [f64::INFINITY, f64::NEG_INFINITY];
+        let rest = &speed[whole..vehicles];
+        for v in least.to_array().iter().chain(&most.to_array()).chain(rest) {
+            if v.is_finite() {
+                *extremes = [extremes[0].min(*v), extremes[1].max(*v)];
+            }
+        }
     }
 }
 
@@ -201,8 +196,7 @@ kernel! {
         for start in (0..delays.len()).step_by(CHUNK) {
             let delays: &[u32; CHUNK] = (&delays[start..start + CHUNK]).try_into().expect("padded");
             let leaders: &[u32; CHUNK] = (&leaders[start..start + CHUNK]).try_into().expect("padded");
-            let offset = chunk(offset, start);
-            let scene = chunk_mut(scene, start);
+            let (offset, scene) = (&offset[start..start + CHUNK], &mut scene[start..start + CHUNK]);
             for j in 0..CHUNK {
                 let back = if delays[j] > head { rows } else { 0 };
                 let begin = ((head + back) - delays[j]) as usize * row as usize;

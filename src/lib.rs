@@ -4,41 +4,46 @@
 //!
 //! # The house
 //!
-//! A [`scenario`] is the only input: plain data that determines a run to the last bit. A simulation is the only
-//! state. A probe is the only way to measure. A [`table`] is the only way out to a file.
+//! A [`scenario`] is the only input: plain data that determines a run to the last bit. A [`simulation`] is the only
+//! state. A [`probe`] is the only way to measure. A [`table`] is the only way out to a file.
 //!
 //! | room | what lives there |
 //! |---|---|
 //! | [`parameters`] | the one table of parameters: names, units, ranges, meanings |
 //! | [`scenario`] | the input: road, start, drivers, validation, JSON |
 //! | [`action`] | the grammar of timed actions and of drivers who differ |
+//! | [`link`] | a scenario as the readable part of a link |
+//! | [`preset`] | scenarios with names |
 //! | [`error`] | what a refusal says |
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
-//! | [`link`] | a scenario as the readable part of a link |
-//! | [`colour`] | colour of speed and frustration, for ring and maps |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
 //! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
-//! | [`preset`] | scenarios with names |
-//! | [`measurement`] | what to measure, plain data |
-//! | [`probe`] | one file a measurement |
-//! | [`fit`] | straight lines and exponentials through points |
 //! | [`simulation`] | the state and its step |
 //! | [`following`] | perceived headways to speeds, all vehicles at once |
 //! | [`history`], [`reaction`] | what was Δ ago, and how long ago that is for whom |
 //! | [`vector`] | vectors as wide as the machine has them |
 //! | [`ring`] | who is ahead, who passed |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
-//! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
-//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
+//! | [`measurement`] | what to measure, plain data |
+//! | [`probe`] | one file a measurement |
+//! | [`fit`] | straight lines and exponentials through points |
 //! | [`table`] | columns, units, CSV |
+//! | [`batch`] | grids and Monte Carlo over scenarios: plan, runs, summary |
+//! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
+//! | [`plot`], [`colour`] | tables to pictures |
+//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
+//! | `web` | the façade for the page, on WebAssembly only |
+//! | `main.rs`, `command/` | the command, native only |
 
 pub mod action;
 pub mod batch;
+pub mod claim;
 pub mod colour;
 pub mod driver;
 pub mod error;
 pub mod exp;
+pub mod figure;
 pub mod fit;
 pub mod following;
 pub mod frustration;
@@ -47,6 +52,7 @@ pub mod link;
 pub mod live;
 pub mod measurement;
 pub mod parameters;
+pub mod plot;
 pub mod preset;
 pub mod probe;
 pub mod random;

@@ -1,12 +1,199 @@
 //! Vectors as wide as the machine has them, chosen at run time; the one room with `unsafe` in it.
 //!
-//! A *kernel* is a plain loop over chunks of [`CHUNK`] numbers, which the compiler turns into vectors.
-//! `kernel!` compiles it once for each width that the target knows. All versions do the same
-//! operations on each number, each rounding once, so that results do not depend on the width: a test holds one
-//! against the other.
+//! A *kernel* is a loop over [`Chunk`]s of [`CHUNK`] numbers. `kernel!` compiles it once for each width that the
+//! target knows. On x86-64 the compiler turns the chunks' arrays into vectors of that width; in WebAssembly, where
+//! the page's code is built for size, they are vectors of 128 bits by name. All versions do the same operations on
+//! each number, each rounding once, so that results do not depend on the width: a test holds one against the other.
+
+use std::ops::{Add, Mul, Sub};
 
 /// Numbers that a kernel handles at a time: a whole number of vectors of every width.
 pub const CHUNK: usize = 8;
+
+/// What a formula needs to be written once, for one number and for a chunk of them.
+pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// The same number everywhere.
+    fn all(value: f64) -> Self;
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn all(value: f64) -> Self {
+        value
+    }
+}
+
+#[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+mod chunk {
+    use super::CHUNK;
+
+    /// [`CHUNK`] numbers side by side.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Chunk([f64; CHUNK]);
+
+    impl Chunk {
+        #[inline(always)]
+        pub(crate) fn load(slice: &[f64], start: usize) -> Self {
+            Self(slice[start..start + CHUNK].try_into().expect("a chunk has its length"))
+        }
+        #[inline(always)]
+        pub(crate) fn store(self, slice: &mut [f64], start: usize) {
+            slice[start..start + CHUNK].copy_from_slice(&self.0);
+        }
+        #[inline(always)]
+        pub(crate) fn splat(value: f64) -> Self {
+            Self([value; CHUNK])
+        }
+        #[inline(always)]
+        pub(crate) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+            let mut out = [0.0; CHUNK];
+            for j in 0..CHUNK {
+                out[j] = f(self.0[j], other.0[j]);
+            }
+            Self(out)
+        }
+        /// Whether |x| ≤ `bound` for all; false where one is NaN.
+        #[inline(always)]
+        pub(crate) fn all_within(self, bound: f64) -> bool {
+            let mut outside = 0_u64;
+            for x in self.0 {
+                outside |= u64::from(!(x.abs() <= bound));
+            }
+            outside == 0
+        }
+        /// `other` where it is smaller.
+        #[inline(always)]
+        pub(crate) fn least(self, other: Self) -> Self {
+            self.zip(other, |a, b| if b < a { b } else { a })
+        }
+        /// `other` where it is larger.
+        #[inline(always)]
+        pub(crate) fn most(self, other: Self) -> Self {
+            self.zip(other, |a, b| if a < b { b } else { a })
+        }
+    }
+
+    impl std::ops::Add for Chunk {
+        type Output = Self;
+        #[inline(always)]
+        fn add(self, other: Self) -> Self {
+            self.zip(other, |a, b| a + b)
+        }
+    }
+    impl std::ops::Sub for Chunk {
+        type Output = Self;
+        #[inline(always)]
+        fn sub(self, other: Self) -> Self {
+            self.zip(other, |a, b| a - b)
+        }
+    }
+    impl std::ops::Mul for Chunk {
+        type Output = Self;
+        #[inline(always)]
+        fn mul(self, other: Self) -> Self {
+            self.zip(other, |a, b| a * b)
+        }
+    }
+}
+
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod chunk {
+    use super::CHUNK;
+    use core::arch::wasm32::{
+        f64x2_abs, f64x2_add, f64x2_le, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sub,
+        i64x2_all_true, v128, v128_and, v128_load, v128_store,
+    };
+
+    /// [`CHUNK`] numbers side by side.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Chunk([v128; CHUNK / 2]);
+
+    impl Chunk {
+        #[inline(always)]
+        #[allow(unsafe_code)]
+        pub(crate) fn load(slice: &[f64], start: usize) -> Self {
+            let from = slice[start..start + CHUNK].as_ptr().cast::<v128>();
+            // SAFETY: the slice has CHUNK numbers, which are CHUNK / 2 vectors; the load needs no alignment.
+            Self(std::array::from_fn(|k| unsafe { v128_load(from.add(k)) }))
+        }
+        #[inline(always)]
+        #[allow(unsafe_code)]
+        pub(crate) fn store(self, slice: &mut [f64], start: usize) {
+            let to = slice[start..start + CHUNK].as_mut_ptr().cast::<v128>();
+            for (k, vector) in self.0.into_iter().enumerate() {
+                // SAFETY: as in `load`.
+                unsafe { v128_store(to.add(k), vector) };
+            }
+        }
+        #[inline(always)]
+        pub(crate) fn splat(value: f64) -> Self {
+            Self([f64x2_splat(value); CHUNK / 2])
+        }
+        #[inline(always)]
+        fn zip(self, other: Self, f: impl Fn(v128, v128) -> v128) -> Self {
+            let (a, b) = (self.0, other.0);
+            Self([f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])])
+        }
+        /// Whether |x| ≤ `bound` for all; false where one is NaN.
+        #[inline(always)]
+        pub(crate) fn all_within(self, bound: f64) -> bool {
+            let bound = f64x2_splat(bound);
+            let [a, b, c, d] = self.0.map(|x| f64x2_le(f64x2_abs(x), bound));
+            i64x2_all_true(v128_and(v128_and(a, b), v128_and(c, d)))
+        }
+        /// `other` where it is smaller.
+        #[inline(always)]
+        pub(crate) fn least(self, other: Self) -> Self {
+            self.zip(other, |a, b| f64x2_pmin(a, b))
+        }
+        /// `other` where it is larger.
+        #[inline(always)]
+        pub(crate) fn most(self, other: Self) -> Self {
+            self.zip(other, |a, b| f64x2_pmax(a, b))
+        }
+    }
+
+    impl std::ops::Add for Chunk {
+        type Output = Self;
+        #[inline(always)]
+        fn add(self, other: Self) -> Self {
+            self.zip(other, |a, b| f64x2_add(a, b))
+        }
+    }
+    impl std::ops::Sub for Chunk {
+        type Output = Self;
+        #[inline(always)]
+        fn sub(self, other: Self) -> Self {
+            self.zip(other, |a, b| f64x2_sub(a, b))
+        }
+    }
+    impl std::ops::Mul for Chunk {
+        type Output = Self;
+        #[inline(always)]
+        fn mul(self, other: Self) -> Self {
+            self.zip(other, |a, b| f64x2_mul(a, b))
+        }
+    }
+}
+
+pub(crate) use chunk::Chunk;
+
+impl Chunk {
+    /// The numbers, one by one.
+    #[inline(always)]
+    pub(crate) fn to_array(self) -> [f64; CHUNK] {
+        let mut out = [0.0; CHUNK];
+        self.store(&mut out, 0);
+        out
+    }
+}
+
+impl Real for Chunk {
+    #[inline(always)]
+    fn all(value: f64) -> Self {
+        Self::splat(value)
+    }
+}
 
 /// Width of the vectors that a kernel uses; one that this machine has, since only [`Width::available`] makes wider
 /// ones than the target's own.

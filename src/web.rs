@@ -1,6 +1,7 @@
 //! The door of the WebAssembly module: numbers and texts in, typed arrays and JSON out, and the maps painted on
 //! their canvas. It decides nothing; a refusal comes out as the text of [`crate::error::Invalid`].
 
+mod figures;
 mod theory;
 
 use crate::action::Action;
@@ -535,5 +536,44 @@ impl Export {
     /// The table as CSV, the same bytes as the command writes.
     pub fn csv(&self) -> String {
         self.probe.table().to_csv(self.simulation.scenario(), &self.measurement)
+    }
+}
+
+/// A run that nobody watches: it only steps. For many runs, and for measuring what a step costs.
+#[wasm_bindgen]
+pub struct Run {
+    simulation: Simulation,
+}
+
+#[wasm_bindgen]
+impl Run {
+    /// A scenario (JSON) at t = 0.
+    #[wasm_bindgen(constructor)]
+    pub fn new(scenario: &str) -> Result<Run, JsError> {
+        let scenario = Scenario::from_json(scenario).map_err(refusal)?;
+        Ok(Self { simulation: Simulation::new(&scenario).map_err(refusal)? })
+    }
+
+    /// The same scenario with another seed, at t = 0.
+    pub fn with_seed(&self, seed: u32) -> Result<Run, JsError> {
+        let scenario = Scenario { seed: seed.into(), ..self.simulation.scenario().clone() };
+        Ok(Self { simulation: Simulation::new(&scenario).map_err(refusal)? })
+    }
+
+    /// At most so many steps. Returns how many were taken.
+    pub fn step(&mut self, steps: u32) -> u32 {
+        let before = self.simulation.step_index();
+        self.simulation.run_to(before + u64::from(steps));
+        (self.simulation.step_index() - before) as u32
+    }
+
+    /// Whether the run is over.
+    pub fn finished(&self) -> bool {
+        self.simulation.is_finished()
+    }
+
+    /// Distances since t = 0, nudges after it included, m.
+    pub fn displacements(&self) -> Vec<f64> {
+        self.simulation.displacements().to_vec()
     }
 }

@@ -26,7 +26,7 @@ export default defineConfig(({ mode }) => {
       modulePreload: false,
       reportCompressedSize: false,
       rollupOptions: {
-        input: one ? at('index.html') : [at('index.html'), at('embed.html'), at('course.html')],
+        input: one ? at('index.html') : [at('index.html'), at('embed.html'), at('figures.html'), at('course.html')],
       },
     },
     test: { include: ['unit/**/*.test.ts'] },

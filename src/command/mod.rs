@@ -10,6 +10,7 @@ mod parameters;
 mod presets;
 mod progress;
 mod replay;
+mod reproduce;
 mod run;
 mod stability;
 mod summary;
@@ -33,6 +34,7 @@ const SUBCOMMANDS: &[Subcommand] = &[
     run::SUBCOMMAND,
     batch::SUBCOMMAND,
     stability::SUBCOMMAND,
+    reproduce::SUBCOMMAND,
     presets::SUBCOMMAND,
     parameters::SUBCOMMAND,
     replay::SUBCOMMAND,

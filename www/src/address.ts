@@ -2,8 +2,8 @@
 
 /** Entries of a link that the page reads itself. */
 export interface PageOptions {
-  /** `view=embed`: ring, map, play and verdict only. */
-  readonly view: 'lab' | 'embed' | null
+  /** `view=embed`: ring, map, play and verdict only. `view=figures`: the paper's figures. */
+  readonly view: 'lab' | 'embed' | 'figures' | null
   /** The rest, for the core. */
   readonly scenario: string
 }
@@ -16,17 +16,21 @@ export function readHash(hash: string): PageOptions {
     .filter(entry => {
       if (entry === 'view=embed') view = 'embed'
       else if (entry === 'view=lab') view = 'lab'
+      else if (entry === 'view=figures') view = 'figures'
       else return entry !== ''
       return false
     })
   return { view, scenario: rest.join('&') }
 }
 
+/** What stands after the #. */
+export const hashOf = (scenario: string, view: PageOptions['view']): string =>
+  `#${[view ? `view=${view}` : '', scenario].filter(part => part !== '').join('&')}`
+
 /** Puts the experiment into the address without a new entry in the history, where the frame allows it. */
 export function writeHash(scenario: string, view: PageOptions['view']): void {
-  const hash = [view ? `view=${view}` : '', scenario].filter(part => part !== '').join('&')
   try {
-    history.replaceState(null, '', hash === '' ? '#' : `#${hash}`)
+    history.replaceState(null, '', hashOf(scenario, view))
   } catch {
     // A srcdoc frame has no address of its own; the share dialog still has the link.
   }

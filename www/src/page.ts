@@ -1,5 +1,5 @@
 // The page: opens the core, builds the views, listens to keys.
-import { base, readHash, writeHash } from './address'
+import { base, type PageOptions, readHash, writeHash } from './address'
 import { openCore } from './client/open'
 import { el } from './dom'
 import { Session } from './session'
@@ -8,6 +8,7 @@ import { actionsView } from './views/actions'
 import { carView } from './views/car'
 import { brakeWatched, controlsView, nudgeWatched } from './views/controls'
 import { filesDialog, helpDialog, shareDialog } from './views/dialogs'
+import { doors } from './views/doors'
 import { headerView } from './views/header'
 import { lanesView } from './views/lanes'
 import { liveView } from './views/live'
@@ -25,13 +26,16 @@ async function run(app: HTMLElement): Promise<void> {
   const dark = matchMedia('(prefers-color-scheme: dark)')
   const session = new Session(client, start, dark.matches)
   const options = readHash(location.hash)
-  if (options.view) document.body.dataset.view = options.view
+  const own = document.body.dataset.view as PageOptions['view']
+  let { view } = options
+  if (view) document.body.dataset.view = view
 
   const verdict = verdictView(session)
   const share = shareDialog(session, base)
   const files = filesDialog(session)
   const help = helpDialog(session)
-  const header = headerView(session, { share, files, help })
+  const { link: figures, show } = doors(session, app)
+  const header = headerView(session, { share, files, help, figures })
   const ring = ringView(session, transportView(session))
   const controls = controlsView(session, verdict.preview)
   const map = await mapView(session)
@@ -62,10 +66,12 @@ async function run(app: HTMLElement): Promise<void> {
   session.on('snapshot', ({ link }) => {
     if (link === written) return
     written = link
-    writeHash(link, options.view)
+    writeHash(link, view)
   })
   window.addEventListener('hashchange', () => {
-    const { scenario } = readHash(location.hash)
+    const { view: wanted, scenario } = readHash(location.hash)
+    view = wanted
+    void show(wanted ?? own)
     if (scenario !== written) {
       written = scenario
       void session.open('link', scenario)
@@ -76,12 +82,14 @@ async function run(app: HTMLElement): Promise<void> {
   dark.addEventListener('change', () => void session.look({ dark: dark.matches }))
   document.addEventListener('keydown', event => key(session, help, event))
   // Who asks for less motion starts the motion.
-  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) session.play()
+  const figuresFirst = document.body.dataset.view === 'figures'
+  if (figuresFirst) await show('figures')
+  else if (!matchMedia('(prefers-reduced-motion: reduce)').matches) session.play()
   Object.assign(window, { ringroad: session })
 }
 
 function key(session: Session, help: HTMLDialogElement, event: KeyboardEvent): void {
-  if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return
+  if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]') || document.body.dataset.view === 'figures') return
   const at = event.target as HTMLElement
   // Where letters are typed they are letters; a focused button has the space bar for itself.
   const typing = at.matches('textarea, select, input:not([type=range]):not([type=checkbox])')

@@ -53,6 +53,12 @@ export class WorkerClient implements Client {
     })
   }
 
+  /** Ends the worker; what was asked stays without an answer. */
+  close(): void {
+    this.#worker.terminate()
+    this.#waiting.clear()
+  }
+
   #receive(reply: Reply): void {
     if (reply.kind === 'ready') return
     const waiting = this.#waiting.get(reply.id)

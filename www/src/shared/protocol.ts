@@ -220,6 +220,32 @@ export interface Opened {
   readonly messages: readonly string[]
 }
 
+/** A figure of the paper, or beyond it. */
+export interface FigureInfo {
+  readonly id: string
+  readonly title: string
+  readonly caption: string
+  readonly beyond: boolean
+  /** Pieces of work. */
+  readonly pieces: number
+}
+
+/** A claim of the paper beside what is measured; numbers with their units. */
+export interface Claim {
+  readonly claim: string
+  readonly paper: string
+  readonly ours: string
+  readonly verdict: 'agrees' | 'differs' | 'open'
+  readonly method: string
+}
+
+/** What a figure gives. */
+export interface FigureOutcome {
+  readonly svg: string
+  readonly claims: readonly Claim[]
+  readonly tables: readonly { readonly name: string; readonly csv: string }[]
+}
+
 /** Every request with its answer. */
 export interface Requests {
   start: { ask: { wasm: ArrayBuffer }; answer: Start }
@@ -256,6 +282,11 @@ export interface Requests {
   /** Replays the run so far and measures it. */
   csv: { ask: { measurement: string }; answer: string }
   cancel: { ask: Record<string, never>; answer: null }
+  figures: { ask: Record<string, never>; answer: readonly FigureInfo[] }
+  /** One piece of a figure's work, from 0. */
+  piece: { ask: { figure: string; piece: number }; answer: Float64Array }
+  /** All pieces put together. */
+  assemble: { ask: { figure: string; pieces: Float64Array[] }; answer: FigureOutcome }
 }
 export type Name = keyof Requests
 export type Ask<K extends Name> = Requests[K]['ask']

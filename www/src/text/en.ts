@@ -27,6 +27,8 @@ export const en = {
     choose: 'Experiments …',
     share: 'Share',
     files: 'Data',
+    figures: 'Paper figures',
+    lab: 'Laboratory',
     help: 'Help',
     fullscreen: 'Full screen',
     theme: 'Light or dark',
@@ -337,6 +339,38 @@ export const en = {
     one: (mode: number, rate: number, predicted: number | null): string =>
       `mode ${mode}: ${exactly(rate, 4)}${predicted === null ? '' : ` against ${exactly(predicted, 4)}`}`,
     describe: (list: string): string => (list === '' ? 'Growth of each mode: nothing measured yet.' : `Growth per second, measured against theory: ${list}.`),
+  },
+
+  figures: {
+    title: 'The paper, figure by figure',
+    intro:
+      'Every figure is computed here, in this browser, and what the paper claims is held against what comes out. A verdict is computed, too: from the value, its uncertainty and the tolerance of the row.',
+    all: 'Run all',
+    run: 'Run',
+    again: 'Run again',
+    runLabel: (title: string): string => `Run: ${title}`,
+    cancel: 'Cancel',
+    cancelAll: 'Cancel all',
+    cancelLabel: (title: string): string => `Cancel: ${title}`,
+    beyond: 'beyond the paper',
+    starting: 'Starting …',
+    waiting: 'Waiting for the figure before it.',
+    running: (done: number, of: number): string => `${done} of ${of} pieces of work`,
+    assembling: 'Putting it together …',
+    done: (seconds: number, workers: number): string =>
+      `Done in ${span(seconds)}${workers === 0 ? '' : workers === 1 ? ', one worker' : `, ${workers} workers`}.`,
+    cancelled: 'Cancelled.',
+    failed: (why: string): string => `That did not work: ${why}`,
+    progress: (title: string): string => `Progress: ${title}`,
+    plot: (title: string): string => `Picture: ${title}`,
+    save: 'Save',
+    noClaims: 'The paper claims nothing here.',
+    columns: { claim: 'Claim', paper: 'Paper', ours: 'Ours', verdict: 'Verdict', method: 'How it was measured' },
+    verdicts: { agrees: 'agrees', differs: 'differs', open: 'not determined by the paper' },
+    symbols: { agrees: '✓', differs: '✗', open: '?' },
+    summary: (agree: number, differ: number, open: number): string =>
+      `${agree + differ + open} claims: ${agree} agree, ${differ} differ, ${open} not determined by the paper.`,
+    point: (panel: string, x: string, y: string): string => `${panel}: ${x}, ${y}`,
   },
 }
 

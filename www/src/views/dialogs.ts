@@ -2,6 +2,7 @@
 import { Cancelled } from '../client/client'
 import { el } from '../dom'
 import { fixed } from '../format'
+import { save } from '../save'
 import type { Session } from '../session'
 import { text } from '../text'
 
@@ -30,16 +31,6 @@ async function copy(field: HTMLTextAreaElement, button: HTMLButtonElement): Prom
   setTimeout(() => {
     button.textContent = text.share.copy
   }, 2000)
-}
-
-/** Saves a text as a file. Frames without allow-downloads ignore it silently. */
-function save(name: string, type: string, content: string): void {
-  const url = URL.createObjectURL(new Blob([content], { type }))
-  const link = el('a', { href: url, download: name })
-  document.body.append(link)
-  link.click()
-  link.remove()
-  setTimeout(() => URL.revokeObjectURL(url), 10_000)
 }
 
 export function shareDialog(session: Session, address: () => string): HTMLDialogElement {

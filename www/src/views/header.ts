@@ -20,7 +20,7 @@ function icon(): SVGElement {
   return svg
 }
 
-export function headerView(session: Session, dialogs: { share: HTMLDialogElement; files: HTMLDialogElement; help: HTMLDialogElement }): { element: HTMLElement; note: HTMLElement } {
+export function headerView(session: Session, dialogs: { share: HTMLDialogElement; files: HTMLDialogElement; help: HTMLDialogElement; figures: HTMLElement }): { element: HTMLElement; note: HTMLElement } {
   const words = el('p')
   const note = el('div', { id: 'preset', role: 'status', hidden: true }, words, el('button', { type: 'button', 'aria-label': t.close, onclick: () => (note.hidden = true) }, '✕'))
   const presets = el(
@@ -52,6 +52,7 @@ export function headerView(session: Session, dialogs: { share: HTMLDialogElement
     presets,
     el('button', { type: 'button', id: 'open-share', onclick: open(dialogs.share) }, t.share),
     el('button', { type: 'button', id: 'open-files', onclick: open(dialogs.files) }, t.files),
+    dialogs.figures,
     document.fullscreenEnabled ? el('button', { type: 'button', class: 'wide-only', 'aria-label': t.fullscreen, title: t.fullscreen, onclick: full }, icon()) : null,
     el('button', { type: 'button', id: 'open-help', 'aria-label': t.help, onclick: open(dialogs.help) }, '?'),
   )

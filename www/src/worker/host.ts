@@ -1,6 +1,6 @@
 // The core's side of the door: answers questions, one after the other, and cuts long ones into slices so that
 // whoever shares its thread stays alive. It computes nothing; it asks the compiled core.
-import { Export, Lab, initSync, parameters, presets, version } from '../../pkg/ringroad.js'
+import { Export, FigureOutcome, Lab, figure_piece, figures, initSync, parameters, presets, version } from '../../pkg/ringroad.js'
 import { CANCELLED } from '../client/client'
 import type { Answer, Ask, Frame, Name, Opened, Snapshot } from '../shared/protocol'
 
@@ -153,6 +153,17 @@ export class Host {
     cancel: () => {
       this.#cancelled = true
       return null
+    },
+    figures: () => JSON.parse(figures()),
+    piece: ({ figure, piece }) => figure_piece(figure, piece),
+    assemble: ({ figure, pieces }) => {
+      const outcome = new FigureOutcome(figure, pieces)
+      try {
+        const table = (_: unknown, k: number) => ({ name: outcome.table_name(k), csv: outcome.csv(k) })
+        return { svg: outcome.svg(), claims: JSON.parse(outcome.claims()), tables: Array.from({ length: outcome.tables() }, table) }
+      } finally {
+        outcome.free()
+      }
     },
   }
 

@@ -1,0 +1,447 @@
+//! Claims: what the paper says, beside what is measured here, with a verdict that is computed and never written by
+//! hand.
+//!
+//! # How a verdict comes about
+//!
+//! What is measured is an [`Estimate`], a value with its uncertainty: the half-width of the 95 % confidence interval
+//! over independent runs, or the width of the grid on which something was looked for; 0 where the value is exact.
+//!
+//! - [`Expected::About`] a number, within a tolerance that the row states: met when the two intervals overlap.
+//! - [`Expected::AtMost`] and [`Expected::MoreThan`]: an order; it must hold for the whole interval.
+//!
+//! Where the paper leaves something open that matters (whose speed, how many periods), each choice is a
+//! [`Reading`]. If all of them meet the claim, it *agrees*; if none does, it *differs*; if some do and some do not,
+//! it is *not determined by the paper*.
+
+use serde::{Serialize, Serializer};
+use std::fmt::{self, Write as _};
+
+/// A measured value with its uncertainty.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The value; NaN where there is none.
+    pub value: f64,
+    /// Half-width of the interval in which the true value is taken to lie.
+    pub uncertainty: f64,
+}
+
+impl Estimate {
+    /// A value with an uncertainty.
+    pub fn new(value: f64, uncertainty: f64) -> Self {
+        Self { value, uncertainty }
+    }
+
+    /// A value computed without error worth mentioning.
+    pub fn exact(value: f64) -> Self {
+        Self { value, uncertainty: 0.0 }
+    }
+
+    /// Mean of independent samples with its 95 % confidence interval (Student's t). With fewer than two samples the
+    /// uncertainty is unknown, and no claim is met.
+    pub fn mean(samples: &[f64]) -> Self {
+        let n = samples.len() as f64;
+        Self { value: mean(samples), uncertainty: student_95(n - 1.0) * deviation(samples) / n.sqrt() }
+    }
+
+    /// Share of `n` independent trials, with Wilson's 95 % interval made symmetric about its centre.
+    pub fn share(successes: usize, n: usize) -> Self {
+        let (p, n, z) = (successes as f64 / n as f64, n as f64, 1.959_964);
+        let shrink = 1.0 + z * z / n;
+        let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt() / shrink;
+        Self { value: (p + z * z / (2.0 * n)) / shrink, uncertainty: half }
+    }
+}
+
+/// Mean; NaN of nothing.
+pub fn mean(samples: &[f64]) -> f64 {
+    samples.iter().sum::<f64>() / samples.len() as f64
+}
+
+/// Standard deviation of a sample, n − 1 in the denominator; NaN for fewer than two.
+pub fn deviation(samples: &[f64]) -> f64 {
+    let mean = mean(samples);
+    let squares: f64 = samples.iter().map(|x| (x - mean) * (x - mean)).sum();
+    if samples.len() < 2 { f64::NAN } else { (squares / (samples.len() as f64 - 1.0)).sqrt() }
+}
+
+/// The 97.5 % quantile of Student's t for `freedom` degrees of freedom: tabulated up to 4, then the expansion about
+/// the normal quantile (Abramowitz & Stegun 26.7.5), right to 0.002.
+pub fn student_95(freedom: f64) -> f64 {
+    const FEW: [f64; 4] = [12.706_205, 4.302_653, 3.182_446, 2.776_445];
+    if freedom < 1.0 {
+        return f64::NAN;
+    }
+    if freedom <= 4.0 {
+        return FEW[freedom as usize - 1];
+    }
+    let z = 1.959_964;
+    let z2 = z * z;
+    let terms = [
+        (z2 + 1.0) / 4.0,
+        ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0,
+        (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0,
+        ((((79.0 * z2 + 776.0) * z2 + 1482.0) * z2 - 1920.0) * z2 - 945.0) / 92_160.0,
+    ];
+    z * (1.0 + terms.iter().rev().fold(0.0, |sum, term| (sum + term) / freedom))
+}
+
+/// What the paper says, in a form that can be checked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Expected {
+    /// A number, within a tolerance.
+    About(f64, f64),
+    /// No more than this.
+    AtMost(f64),
+    /// More than this.
+    MoreThan(f64),
+}
+
+impl Expected {
+    /// Whether an estimate meets it. No value meets nothing.
+    pub fn is_met_by(self, ours: Estimate) -> bool {
+        let Estimate { value, uncertainty } = ours;
+        match self {
+            Self::About(paper, tolerance) => (value - paper).abs() <= tolerance + uncertainty,
+            Self::AtMost(most) => value + uncertainty <= most,
+            Self::MoreThan(least) => value - uncertainty > least,
+        }
+    }
+}
+
+/// One way to read what the paper leaves open, and what it gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// The choice, in words.
+    pub choice: String,
+    /// What is measured then.
+    pub ours: Estimate,
+}
+
+/// What comes of holding a claim against measurements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Every reading meets the claim.
+    Agrees,
+    /// None does.
+    Differs,
+    /// Some do.
+    NotDetermined,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Agrees => "agrees",
+            Self::Differs => "differs",
+            Self::NotDetermined => "not determined by the paper",
+        })
+    }
+}
+
+/// One row of the table of claims.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// Identifier of the figure that it is measured for.
+    pub figure: &'static str,
+    /// What is claimed.
+    pub claim: String,
+    /// Unit of the numbers; empty for a pure one.
+    pub unit: &'static str,
+    /// What the paper says.
+    pub expected: Expected,
+    /// The reading taken here, first, and others that the paper allows as well.
+    pub readings: Vec<Reading>,
+    /// How it was measured, and where the tolerance comes from.
+    pub method: String,
+}
+
+impl Claim {
+    /// A claim with one reading.
+    pub fn new(
+        figure: &'static str,
+        claim: impl Into<String>,
+        unit: &'static str,
+        expected: Expected,
+        ours: Estimate,
+        method: impl Into<String>,
+    ) -> Self {
+        let readings = vec![Reading { choice: String::new(), ours }];
+        Self { figure, claim: claim.into(), unit, expected, readings, method: method.into() }
+    }
+
+    /// The same claim, with another reading that the paper allows.
+    #[must_use]
+    pub fn or(mut self, choice: impl Into<String>, ours: Estimate) -> Self {
+        self.readings.push(Reading { choice: choice.into(), ours });
+        self
+    }
+
+    /// What we measure, in the reading taken here.
+    pub fn ours(&self) -> Estimate {
+        self.readings[0].ours
+    }
+
+    /// The verdict.
+    pub fn verdict(&self) -> Verdict {
+        let met = self.readings.iter().filter(|r| self.expected.is_met_by(r.ours)).count();
+        match met {
+            0 => Verdict::Differs,
+            n if n == self.readings.len() => Verdict::Agrees,
+            _ => Verdict::NotDetermined,
+        }
+    }
+
+    /// What the paper says, in words, with the tolerance: `2065 ± 0.5 veh/h`.
+    pub fn paper(&self) -> String {
+        let text = match self.expected {
+            Expected::About(value, tolerance) => format!("{} ± {}", short(value), short(tolerance)),
+            Expected::AtMost(most) => format!("at most {}", short(most)),
+            Expected::MoreThan(least) => format!("more than {}", short(least)),
+        };
+        with_unit(text, self.unit)
+    }
+
+    /// What we measure, in words: `2065.2 ± 0 veh/h`.
+    pub fn ours_in_words(&self) -> String {
+        let Estimate { value, uncertainty } = self.ours();
+        if value.is_nan() {
+            return "none".into();
+        }
+        with_unit(format!("{} ± {}", short(value), short(uncertainty)), self.unit)
+    }
+
+    /// How it was measured, with what the other readings give.
+    pub fn method_in_words(&self) -> String {
+        let mut text = self.method.clone();
+        let others = &self.readings[1..];
+        if others.is_empty() {
+            return text;
+        }
+        let met = self.readings.iter().filter(|r| self.expected.is_met_by(r.ours)).count();
+        let _ = write!(text, " Readings tried: {}, of which {met} meet the claim.", self.readings.len());
+        if others.len() <= 6 {
+            let each = |r: &Reading| format!("{}: {}", r.choice, short(r.ours.value));
+            let _ = write!(text, " Others: {}.", others.iter().map(each).collect::<Vec<_>>().join("; "));
+        } else {
+            let values = || self.readings.iter().map(|r| r.ours.value);
+            let (low, high) = (values().fold(f64::NAN, f64::min), values().fold(f64::NAN, f64::max));
+            let _ = write!(text, " They range from {} to {}.", short(low), short(high));
+        }
+        text
+    }
+}
+
+impl Serialize for Claim {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Row {
+            figure: &'static str,
+            claim: String,
+            paper: String,
+            /// `null` where there is no value.
+            ours: f64,
+            uncertainty: f64,
+            verdict: String,
+            method: String,
+        }
+        Row {
+            figure: self.figure,
+            claim: with_unit(self.claim.clone() + ",", self.unit).trim_end_matches(',').to_owned(),
+            paper: self.paper(),
+            ours: self.ours().value,
+            uncertainty: self.ours().uncertainty,
+            verdict: self.verdict().to_string(),
+            method: self.method_in_words(),
+        }
+        .serialize(serializer)
+    }
+}
+
+fn with_unit(text: String, unit: &str) -> String {
+    match unit {
+        "" => text,
+        "%" => text + " %",
+        unit => format!("{text} {unit}"),
+    }
+}
+
+/// A number with about four significant digits, as many as a claim needs.
+pub fn short(value: f64) -> String {
+    if value.is_nan() {
+        return "none".into();
+    }
+    let size = value.abs();
+    let digits = match size {
+        s if s >= 1000.0 || s == 0.0 => 0,
+        s if s >= 100.0 => 1,
+        s if s >= 10.0 => 2,
+        s if s >= 0.1 => 3,
+        s if s >= 0.01 => 4,
+        s if s >= 0.001 => 5,
+        _ => return format!("{value:.2e}"),
+    };
+    let text = format!("{value:.digits$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    text.replace('-', "−")
+}
+
+/// The table of claims for a terminal.
+pub fn to_text(claims: &[Claim]) -> String {
+    let mut out = String::new();
+    let mut figure = "";
+    for claim in claims {
+        if claim.figure != figure {
+            figure = claim.figure;
+            let _ = writeln!(out, "{}{figure}", if out.is_empty() { "" } else { "\n" });
+        }
+        let _ = writeln!(out, "  {:<11} {}", Short(claim.verdict()), claim.claim);
+        let _ = writeln!(out, "  {:<11} paper: {}   ours: {}", "", claim.paper(), claim.ours_in_words());
+        for line in wrapped(&claim.method_in_words(), 96) {
+            let _ = writeln!(out, "  {:<11} {line}", "");
+        }
+    }
+    let count = |v| claims.iter().filter(|c| c.verdict() == v).count();
+    let _ = writeln!(
+        out,
+        "\n{} claims: {} agree, {} differ, {} not determined by the paper (“open” above)",
+        claims.len(),
+        count(Verdict::Agrees),
+        count(Verdict::Differs),
+        count(Verdict::NotDetermined)
+    );
+    out
+}
+
+struct Short(Verdict);
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self.0 {
+            Verdict::Agrees => "agrees",
+            Verdict::Differs => "DIFFERS",
+            Verdict::NotDetermined => "open",
+        })
+    }
+}
+
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut().expect("never empty");
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > width {
+            lines.push(word.to_owned());
+        } else {
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+    }
+    lines
+}
+
+/// The table of claims as Markdown.
+pub fn to_markdown(claims: &[Claim]) -> String {
+    let mut out = String::from("| claim | paper | ours | verdict | how |\n|---|---|---|---|---|\n");
+    for claim in claims {
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} | {} |",
+            claim.claim,
+            claim.paper(),
+            claim.ours_in_words(),
+            claim.verdict(),
+            claim.method_in_words()
+        );
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim(expected: Expected, ours: Estimate) -> Claim {
+        Claim::new("figure", "something", "m", expected, ours, "By looking.")
+    }
+
+    #[test]
+    fn a_perturbed_value_flips_its_verdict() {
+        let about = |ours| claim(Expected::About(2065.0, 0.5), ours).verdict();
+        assert_eq!(about(Estimate::exact(2065.4)), Verdict::Agrees);
+        assert_eq!(about(Estimate::exact(2065.6)), Verdict::Differs);
+        assert_eq!(about(Estimate::new(2065.6, 0.2)), Verdict::Agrees);
+        let most = |ours| claim(Expected::AtMost(2.0), ours).verdict();
+        assert_eq!(most(Estimate::new(1.5, 0.4)), Verdict::Agrees);
+        assert_eq!(
+            most(Estimate::new(1.5, 0.6)),
+            Verdict::Differs,
+            "an order must hold for the whole interval"
+        );
+        let more = |ours| claim(Expected::MoreThan(0.0), ours).verdict();
+        assert_eq!(more(Estimate::new(0.5, 0.4)), Verdict::Agrees);
+        assert_eq!(more(Estimate::new(0.5, 0.5)), Verdict::Differs);
+        for expected in [Expected::About(0.0, 1.0), Expected::AtMost(1.0), Expected::MoreThan(0.0)] {
+            assert_eq!(claim(expected, Estimate::exact(f64::NAN)).verdict(), Verdict::Differs, "no value");
+            assert_eq!(
+                claim(expected, Estimate::new(0.5, f64::NAN)).verdict(),
+                Verdict::Differs,
+                "one sample"
+            );
+        }
+    }
+
+    #[test]
+    fn readings_that_disagree_leave_a_claim_open() {
+        let base = claim(Expected::About(1.0, 0.1), Estimate::exact(1.05));
+        assert_eq!(base.clone().or("other", Estimate::exact(0.95)).verdict(), Verdict::Agrees);
+        assert_eq!(base.clone().or("other", Estimate::exact(2.0)).verdict(), Verdict::NotDetermined);
+        let far = claim(Expected::About(1.0, 0.1), Estimate::exact(3.0)).or("other", Estimate::exact(2.0));
+        assert_eq!(far.verdict(), Verdict::Differs);
+        assert!(far.method_in_words().contains("Readings tried: 2, of which 0"));
+    }
+
+    #[test]
+    fn json_has_the_seven_fields() {
+        let json = serde_json::to_value(claim(Expected::About(1.0, 0.1), Estimate::new(1.05, 0.2))).unwrap();
+        let names: Vec<_> = json.as_object().unwrap().keys().cloned().collect();
+        assert_eq!(names, ["claim", "figure", "method", "ours", "paper", "uncertainty", "verdict"]);
+        assert_eq!(json["ours"], 1.05);
+        assert_eq!(json["verdict"], "agrees");
+        assert_eq!(json["claim"], "something, m");
+        let none = serde_json::to_value(claim(Expected::AtMost(1.0), Estimate::exact(f64::NAN))).unwrap();
+        assert!(none["ours"].is_null());
+    }
+
+    /// Values of tables of Student's distribution.
+    #[test]
+    fn quantiles_and_intervals() {
+        for (freedom, t) in
+            [(1.0, 12.706), (4.0, 2.776), (5.0, 2.571), (9.0, 2.262), (19.0, 2.093), (99.0, 1.984)]
+        {
+            assert!((student_95(freedom) - t).abs() < 2e-3, "{freedom}: {}", student_95(freedom));
+        }
+        let four = Estimate::mean(&[1.0, 2.0, 3.0, 4.0]);
+        assert!(
+            (four.value - 2.5).abs() < 1e-15 && (four.uncertainty - 3.182 * 1.290_994 / 2.0).abs() < 1e-3
+        );
+        assert!(Estimate::mean(&[1.0]).uncertainty.is_nan());
+        // Wilson's interval for 8 of 10: 0.490 … 0.943.
+        let share = Estimate::share(8, 10);
+        assert!((share.value - share.uncertainty - 0.490).abs() < 1e-3, "{share:?}");
+        assert!((share.value + share.uncertainty - 0.943).abs() < 1e-3, "{share:?}");
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (2065.2, "2065"),
+            (-1.0734, "−1.073"),
+            (0.5368, "0.537"),
+            (0.0, "0"),
+            (33.333, "33.33"),
+            (0.02, "0.02"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+    }
+}

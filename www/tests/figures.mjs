@@ -1,0 +1,146 @@
+// The paper's figures on the page, held against the command.
+import { mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import { join } from 'node:path'
+import { dist, equal, hash, holds, ringroad, test } from './harness.mjs'
+
+/** Runs a figure on an open page to its end. */
+async function runs(page, id) {
+  await page.click(`#figure-${id} .run`)
+  await page.waitForSelector(`#figure-${id}[data-done][data-state=idle]`, { timeout: 60_000 })
+}
+
+/** What one of the save buttons of a figure gives. */
+async function saved(page, id, name) {
+  const [download] = await Promise.all([
+    page.waitForEvent('download'),
+    page.click(`#figure-${id} .files button:text-is("${name}")`),
+  ])
+  equal(download.suggestedFilename(), name, 'name of the file')
+  return readFileSync(await download.path())
+}
+
+/** What the command writes for a figure: file by file, and its claims. */
+function written(id) {
+  const folder = mkdtempSync(join(tmpdir(), 'ringroad-'))
+  try {
+    const claims = JSON.parse(ringroad('reproduce', id, '--out', folder, '--json'))
+    const files = readdirSync(folder).filter(name => name !== 'claims.json')
+    return { claims, files: new Map(files.map(name => [name, readFileSync(join(folder, name))])) }
+  } finally {
+    rmSync(folder, { recursive: true })
+  }
+}
+
+const WORDS = { agrees: '✓ agrees', differs: '✗ differs', 'not determined by the paper': '? not determined by the paper' }
+
+const PLACES = {
+  'a page of its own': 'figures.html',
+  'one file from disk': `file://${dist}/ringroad.html#view=figures`,
+  'a policy without workers': 'policy-no-worker/ringroad.html#view=figures',
+}
+for (const [name, address] of Object.entries(PLACES)) {
+  test(`figures: pictures, tables and claims are those of the command, in ${name}`, async ({ open }) => {
+    const page = await open(address)
+    await page.waitForSelector('#figure-fundamental-diagram .run')
+    for (const id of ['fundamental-diagram', 'load-balance']) {
+      await runs(page, id)
+      const { claims, files } = written(id)
+      holds(files.size >= 3, `the command wrote ${files.size} files`)
+      for (const [file, bytes] of files) {
+        equal(hash(await saved(page, id, file)), hash(bytes), file)
+      }
+      const rows = await page.$$eval(`#figure-${id} .claims tbody tr`, all =>
+        all.map(row => [...row.children].map(cell => cell.textContent)),
+      )
+      equal(rows.length, claims.length, `claims of ${id}`)
+      rows.forEach(([, paper, , verdict, method], k) => {
+        equal(paper, claims[k].paper, 'the paper')
+        equal(verdict, WORDS[claims[k].verdict], 'verdict')
+        equal(method, claims[k].method, 'method')
+      })
+    }
+    equal(page.problems.join(), '', 'errors on the page')
+  })
+}
+
+test('figures: a picture with maps is saved as PNG', async ({ open }) => {
+  const page = await open('policy-site-worker/figures.html')
+  await page.waitForSelector('#figure-waves .run')
+  await runs(page, 'waves')
+  const png = await saved(page, 'waves', 'waves.png')
+  equal(png.subarray(1, 4).toString(), 'PNG', 'first bytes')
+  const shape = await page.$eval('#figure-waves svg', svg => [svg.viewBox.baseVal.width, svg.viewBox.baseVal.height])
+  equal([png.readUInt32BE(16), png.readUInt32BE(20)].join(), shape.map(x => Math.round(2 * x)).join(), 'pixels')
+  // Blue of the jams within the first map, and not the white of the page.
+  const colours = await page.evaluate(async base64 => {
+    const image = new Image()
+    image.src = `data:image/png;base64,${base64}`
+    await image.decode()
+    const canvas = document.createElement('canvas')
+    canvas.width = image.naturalWidth
+    canvas.height = image.naturalHeight
+    const context = canvas.getContext('2d')
+    context.drawImage(image, 0, 0)
+    const { data } = context.getImageData(0, 0, canvas.width, canvas.height)
+    let coloured = 0
+    for (let k = 0; k < data.length; k += 4) if (data[k + 2] - data[k] > 60) coloured++
+    return coloured / (data.length / 4)
+  }, png.toString('base64'))
+  holds(colours > 0.01, `only ${colours} of the picture is blue`)
+})
+
+test('figures: cancel takes effect at once, and the figure can be run again', async ({ open }) => {
+  const page = await open('figures.html')
+  const figure = '#figure-frustration-flow'
+  await page.waitForSelector(`${figure} .run`)
+  await page.click(`${figure} .run`)
+  await page.waitForFunction(f => document.querySelector(`${f} progress`).value > 0, figure)
+  const taken = await page.evaluate(async f => {
+    const before = performance.now()
+    document.querySelector(`${f} .stop`).click()
+    while (document.querySelector(f).dataset.state !== 'idle') await new Promise(r => setTimeout(r, 1))
+    return performance.now() - before
+  }, figure)
+  holds(taken < 100, `cancel took ${taken} ms`)
+  equal(await page.textContent(`${figure} .status`), 'Cancelled.', 'what is said')
+  equal(await page.locator(`${figure} .plot`).count(), 0, 'pictures')
+  await runs(page, 'fundamental-diagram')
+  equal(page.problems.join(), '', 'errors on the page')
+})
+
+test('figures: those that wait are cancelled with the one that runs', async ({ open }) => {
+  const page = await open('figures.html')
+  await page.click('#figures-all')
+  await page.waitForSelector('#figure-stability[data-state=running]', { timeout: 60_000 })
+  await page.click('#figures-cancel')
+  await page.waitForFunction(() => document.querySelectorAll('.figure:not([data-state=idle])').length === 0)
+  const done = await page.$$eval('.figure[data-done]', all => all.map(f => f.id))
+  equal(done.join(), 'figure-fundamental-diagram,figure-waves', 'done')
+  holds(/^\d+ claims: \d+ agree/.test(await page.textContent('#figures-summary')), 'no summary')
+})
+
+test('figures: there and back again, the laboratory stays as it was', async ({ open }) => {
+  const page = await open('index.html#vehicles=40')
+  await page.waitForFunction(() => window.ringroad?.frame?.time > 0.5)
+  await page.click('#open-figures')
+  await page.waitForSelector('#figures .figure')
+  equal(await page.evaluate(() => window.ringroad.playing), false, 'playing')
+  holds(!(await page.isVisible('#ring')), 'the ring is still to be seen')
+  const time = await page.evaluate(() => window.ringroad.frame.time)
+  await page.goBack()
+  await page.waitForSelector('#ring', { state: 'visible' })
+  holds(!(await page.isVisible('#figures')), 'the figures are still to be seen')
+  equal(await page.evaluate(() => window.ringroad.frame.time), time, 'time')
+  equal(await page.evaluate(() => window.ringroad.snapshot.scenario.vehicles), 40, 'vehicles')
+})
+
+for (const [width, height] of [[1280, 800], [390, 844]]) {
+  test(`figures: fit ${width} × ${height}`, async ({ open }) => {
+    const page = await open('figures.html', { viewport: { width, height } })
+    await page.waitForSelector('#figure-fundamental-diagram .run')
+    await runs(page, 'fundamental-diagram')
+    const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)
+    holds(over <= 0, `${over} px too wide`)
+  })
+}
