@@ -565,3 +565,98 @@ fn named(name: &str) -> Result<&'static Parameter, Invalid> {
         Invalid::new("parameter", crate::parameters::quoted(name), names.join(", "))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(link: &str, seconds: f64) -> Live {
+        let mut live = Live::new(&link::parse(link).scenario).unwrap();
+        let steps = live.simulation().scenario().steps(seconds) as u32;
+        assert_eq!(live.step(steps), steps);
+        live
+    }
+
+    /// In the linear regime the amplitude of the fastest mode follows its root.
+    #[test]
+    fn growth_measured_agrees_with_theory_on_both_sides() {
+        for (delta, grows) in [("0.6", false), ("0.72", true)] {
+            let mut live = run(&format!("reaction-time={delta}&action=at%3D0%3A1%3Anudge%3D0.1"), 200.0);
+            let (verdict, growth) = (*live.verdict(), live.growth().unwrap());
+            assert_eq!((verdict.stable, growth.rate > 0.0), (Some(!grows), grows));
+            let predicted = verdict.rate.unwrap();
+            assert!(
+                (growth.rate - predicted).abs() < 0.01 * predicted.abs(),
+                "{growth:?}, predicted {predicted}"
+            );
+            assert_eq!(growth.window, GROWTH_WINDOW);
+        }
+    }
+
+    #[test]
+    fn the_map_holds_the_speed_of_every_vehicle_at_its_place_and_a_bounded_number_of_columns() {
+        let live = run("vehicles=20&reaction-time=0.3&lanes=2&action=at%3D0%3A1%3Anudge%3D5", 400.0);
+        assert_eq!((live.columns().len(), live.columns_made()), (COLUMNS, 801));
+        let (s, newest) = (live.simulation(), live.columns().back().unwrap());
+        assert_eq!(newest.time, s.time());
+        assert!(newest.speeds.iter().all(|v| v.is_finite()));
+        let width = s.scenario().length / BINS as f64;
+        for j in 0..s.vehicles() {
+            // Speed falls or rises by less than 0.1 m/s within a cell here.
+            let cell = (s.position(j) / width) as usize % BINS;
+            let shown = f64::from(newest.speeds[s.lane(j) * BINS + cell]);
+            assert!((shown - s.speed(j)).abs() < 0.1, "vehicle {}: {shown} for {}", j + 1, s.speed(j));
+        }
+    }
+
+    /// Uniform traffic crosses every place at the equilibrium flow, up to one vehicle a window.
+    #[test]
+    fn flow_is_the_equilibrium_flow() {
+        let mut live = run("", 60.0);
+        let width = 4 + live.watched().len();
+        let rows = live.take_rows();
+        assert_eq!(rows.len(), 121 * width);
+        let flow = 50.0 / 1000.0 * live.equilibrium().speed;
+        let flows: Vec<_> = rows.chunks(width).map(|row| row[2]).filter(|q| !q.is_nan()).collect();
+        assert_eq!(flows.len(), 121 - FLOW_ROWS);
+        assert!(flows.iter().all(|q| (q - flow).abs() <= 1.0 / live.flow_window()), "{flow}");
+        assert!(live.take_rows().is_empty());
+    }
+
+    #[test]
+    fn a_driver_is_set_on_the_way_and_the_road_starts_again_with_what_was_set() {
+        let mut live = run("action=at%3D0%3A1%3Anudge%3D1", 10.0);
+        assert!(!live.set("reaction-time", "0.5").unwrap());
+        assert!(live.act("at=0:7:brake=1".parse().unwrap()).is_ok());
+        assert_eq!(live.simulation().scenario().actions[1].to_string(), "at=10:all:reaction-time=0.5");
+        live.step(100);
+        assert!(live.set("vehicles", "40").unwrap());
+        let scenario = live.simulation().scenario();
+        assert_eq!((scenario.vehicles, scenario.driver.reaction_time), (40, 0.5));
+        assert_eq!(scenario.actions.len(), 1, "the nudge at t = 0 only");
+        assert_eq!(live.simulation().step_index(), 0);
+        let before = live.simulation().scenario().clone();
+        assert!(live.set("vehicles", "300").is_err() && live.set("colour", "1").is_err());
+        assert_eq!(*live.simulation().scenario(), before, "a refusal changes nothing");
+    }
+
+    #[test]
+    fn a_replay_of_the_run_so_far_ends_in_the_same_state() {
+        let mut live = run("reaction-time=0.6&lanes=2&start=random", 15.0);
+        live.act("at=0:3:brake=2".parse().unwrap()).unwrap();
+        live.step(777);
+        let mut replay = Simulation::new(&live.so_far()).unwrap();
+        replay.run_to(u64::MAX);
+        let bits =
+            |s: &Simulation| (0..s.vehicles()).map(|j| s.unwrapped_position(j).to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&replay), bits(live.simulation()));
+        // A collision belongs to the run so far.
+        let mut crash =
+            Live::new(&link::parse("reaction-time=1.2&action=at%3D0%3A1%3Anudge%3D1").scenario).unwrap();
+        crash.step(100_000);
+        let mut replay = Simulation::new(&crash.so_far()).unwrap();
+        replay.run_to(u64::MAX);
+        assert_eq!(replay.collision(), crash.simulation().collision());
+        assert!(replay.collision().is_some());
+    }
+}

@@ -85,11 +85,12 @@ export const en = {
   ring: {
     title: 'The ring',
     size: (n: number, km: string, lanes: number): string =>
-      `${n} ${n === 1 ? 'car' : 'cars'} on ${unit(km, 'km')}${lanes > 1 ? `, ${lanes} lanes` : ''}`,
+      `${n} ${n === 1 ? 'car' : 'cars'} on ${lanes > 1 ? `${lanes} × ` : ''}${unit(km, 'km')}`,
     mean: 'mean speed',
     speed: (v: number): string => unit(exactly(v, 1), 'm/s'),
     kmh: (v: number): string => unit(fixed(v * 3.6, 0), 'km/h'),
-    flow: (q: number, rho: number): string => `${unit(fixed(q * 3600, 0), 'veh/h')} · ${unit(fixed(rho * 1000, 1), 'veh/km')}`,
+    flow: (q: number): string => unit(fixed(q * 3600, 0), 'veh/h'),
+    density: (rho: number): string => unit(fixed(rho * 1000, 1), 'veh/km'),
     canvas: 'The ring seen from above. Arrow keys choose a car, B brakes it.',
     travel: 'travel →',
     car: (n: number): string => `car ${n}`,

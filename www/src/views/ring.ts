@@ -21,8 +21,8 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
   const speed = el('b')
   const kmh = el('span')
   const flow = el('span')
-  const travel = el('span', {}, t.travel)
-  const middle = el('div', { class: 'ring-middle' }, el('span', {}, t.mean), speed, kmh, flow, travel)
+  const density = el('span')
+  const middle = el('div', { class: 'ring-middle' }, el('span', {}, t.mean), speed, kmh, flow, density)
   const field = el('div', { class: 'ring-field', title: t.hint }, canvas, middle)
   const legend = legendView()
   const colour = el(
@@ -124,7 +124,15 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
       }
       c.restore()
     }
-    if (!many && session.watched < frame.positions.length) {
+    const inner = outer - width * lanes
+    if (inner > 95) {
+      c.fillStyle = colours.line
+      c.font = '13px system-ui, sans-serif'
+      c.textAlign = 'center'
+      c.textBaseline = 'middle'
+      c.fillText(t.travel, cx, cy - inner + 14)
+    }
+    if (!many && inner > 95 && session.watched < frame.positions.length) {
       const a = angle(frame.positions[session.watched]!)
       const r = outer - width * lanes - 14
       c.fillStyle = colours.ink
@@ -201,10 +209,11 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
   session.on('frame', frame => {
     const mean = frame.speeds.reduce((sum, v) => sum + v, 0) / frame.speeds.length
     const { scenario } = session.snapshot
-    const density = scenario.vehicles / scenario.length
+    const rho = scenario.vehicles / scenario.length
     speed.textContent = t.speed(mean)
     kmh.textContent = t.kmh(mean)
-    flow.textContent = t.flow(mean * density, density)
+    flow.textContent = t.flow(mean * rho)
+    density.textContent = t.density(rho)
     redraw()
   })
   return section
