@@ -18,10 +18,6 @@
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
-//! | [`preset`] | scenarios with names |
-//! | [`measurement`] | what to measure, plain data |
-//! | [`probe`] | one file a measurement |
-//! | [`fit`] | straight lines and exponentials through points |
 //! | [`stability`] | linear theory: eigenvalues, characteristic roots, critical reaction times |
 //! | [`simulation`] | the state and its step |
 //! | [`following`] | perceived headways to speeds, all vehicles at once |
@@ -37,14 +33,7 @@
 //! | [`table`] | columns, units, CSV |
 //! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
 //! | [`plot`], [`colour`] | tables to pictures |
-
-pub mod action;
-pub mod batch;
-pub mod claim;
-//! | [`batch`] | grids and Monte Carlo over scenarios: plan, runs, summary |
-//! | [`colour`] | tables to pictures |
-//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
-//! | `web` | the façade for the page, on WebAssembly only |
+//! | `web`, `web_figures` | the façade for the page, on WebAssembly only |
 //! | `main.rs`, `command/` | the command, native only |
 
 pub mod action;
