@@ -371,7 +371,8 @@ export const en = {
     symbols: { agrees: '✓', differs: '✗', open: '?' },
     summary: (agree: number, differ: number, open: number): string =>
       `${agree + differ + open} claims: ${agree} agree, ${differ} differ, ${open} not determined by the paper.`,
-    point: (panel: string, x: string, y: string): string => `${panel}: ${x}, ${y}`,
+    point: (x: string, atX: string, y: string, atY: string): string => `${x}: ${atX} · ${y}: ${atY}`,
+    hint: 'Point at the picture to read values.',
   },
 }
 
