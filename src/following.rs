@@ -17,7 +17,7 @@
 use crate::driver::Driver;
 use crate::exp::exp_within;
 use crate::history::History;
-use crate::vector::{CHUNK, Width, kernel};
+use crate::vector::{CHUNK, Width, kernel, larger, smaller};
 
 /// Steps between full evaluations of all factors.
 pub const REFRESH: u64 = 64;
@@ -122,11 +122,12 @@ fn respond_chunk(
             next[j] = if refresh || !is_small(a) { full } else { next[j] };
         }
     }
+    let mut unbounded = [0.0; CHUNK];
     for j in 0..CHUNK {
         let max_speed = law(j).max_speed;
-        let v = max_speed - max_speed * next[j];
-        speed[j] = if v > 0.0 { v } else { 0.0 };
+        unbounded[j] = max_speed - max_speed * next[j];
     }
+    *speed = larger(&[0.0; CHUNK], &unbounded);
     *factor = next;
     *perceived = *scene;
 }
@@ -179,10 +180,8 @@ kernel! {
                 new[j] = old[j] + speed[j] * dt;
             }
             if start + CHUNK <= vehicles {
-                for j in 0..CHUNK {
-                    least[j] = if speed[j] < least[j] { speed[j] } else { least[j] };
-                    most[j] = if speed[j] > most[j] { speed[j] } else { most[j] };
-                }
+                least = smaller(&least, speed);
+                most = larger(&most, speed);
             } else {
                 for v in &speed[..vehicles - start] {
                     least[0] = least[0].min(*v);

@@ -51,6 +51,41 @@ impl Width {
     }
 }
 
+/// The larger of each two numbers; `a` where they are equal or one is NaN.
+#[inline(always)]
+pub(crate) fn larger(a: &[f64; CHUNK], b: &[f64; CHUNK]) -> [f64; CHUNK] {
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    return by_pairs(a, b, |a, b| std::arch::wasm32::f64x2_pmax(a, b));
+    #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+    std::array::from_fn(|j| if a[j] < b[j] { b[j] } else { a[j] })
+}
+
+/// The smaller of each two numbers; `a` where they are equal or one is NaN.
+#[inline(always)]
+pub(crate) fn smaller(a: &[f64; CHUNK], b: &[f64; CHUNK]) -> [f64; CHUNK] {
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    return by_pairs(a, b, |a, b| std::arch::wasm32::f64x2_pmin(a, b));
+    #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+    std::array::from_fn(|j| if b[j] < a[j] { b[j] } else { a[j] })
+}
+
+/// Left to itself the compiler makes scalars of selections in WebAssembly, and of what leads to them.
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+#[inline(always)]
+fn by_pairs(
+    a: &[f64; CHUNK],
+    b: &[f64; CHUNK],
+    choose: impl Fn(std::arch::wasm32::v128, std::arch::wasm32::v128) -> std::arch::wasm32::v128,
+) -> [f64; CHUNK] {
+    use std::arch::wasm32::{f64x2, f64x2_extract_lane};
+    let mut chosen = [0.0; CHUNK];
+    for j in (0..CHUNK).step_by(2) {
+        let pair = choose(f64x2(a[j], a[j + 1]), f64x2(b[j], b[j + 1]));
+        (chosen[j], chosen[j + 1]) = (f64x2_extract_lane::<0>(pair), f64x2_extract_lane::<1>(pair));
+    }
+    chosen
+}
+
 /// Defines a function that is compiled for every [`Width`] and takes the width to use as its first argument.
 macro_rules! kernel {
     ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) $body:block) => {
@@ -83,3 +118,17 @@ macro_rules! kernel {
     };
 }
 pub(crate) use kernel;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_of_equals_and_beside_nan() {
+        let a = [1.0, 2.0, 0.0, -0.0, f64::NAN, 3.0, f64::INFINITY, -1.0];
+        let b = [2.0, 1.0, -0.0, 0.0, 3.0, f64::NAN, 0.0, f64::NEG_INFINITY];
+        let bits = |chunk: [f64; CHUNK]| chunk.map(f64::to_bits);
+        assert_eq!(bits(larger(&a, &b)), bits([2.0, 2.0, 0.0, -0.0, f64::NAN, 3.0, f64::INFINITY, -1.0]));
+        assert_eq!(bits(smaller(&a, &b)), bits([1.0, 1.0, 0.0, -0.0, f64::NAN, 3.0, 0.0, f64::NEG_INFINITY]));
+    }
+}
