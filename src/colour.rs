@@ -6,6 +6,9 @@
 //! Blue against amber, and cividis (Nuñez, Anderton & Renslow, PLoS ONE 13, 2018) for absolute values, are safe
 //! for colour-blind eyes.
 
+// 0xRRGGBB is how colours are written everywhere.
+#![allow(clippy::unreadable_literal)]
+
 /// ε, m/s: where the scale turns from linear to logarithmic.
 pub const SMALLEST: f64 = 0.01;
 /// δv_max, m/s: the ends of the scale.
