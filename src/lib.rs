@@ -28,21 +28,13 @@
 //! | [`measurement`] | what to measure, plain data |
 //! | [`probe`] | one file a measurement |
 //! | [`fit`] | straight lines and exponentials through points |
-//! | [`batch`] | grids and Monte Carlo over scenarios, in parallel where there are cores |
-//! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 //! | [`table`] | columns, units, CSV |
-//! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
-//! | [`plot`], [`colour`] | tables to pictures |
-
-pub mod action;
-pub mod batch;
-pub mod claim;
 //! | [`batch`] | grids and Monte Carlo over scenarios: plan, runs, summary |
 //! | [`figure`], [`claim`] | the paper's figures, and what it claims beside what is measured |
-//! | [`plot`] | tables to pictures |
-//! | [`colour`] | colours of speeds and frustration |
+//! | [`plot`], [`colour`] | tables to pictures |
 //! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 //! | `web` | the façade for the page, on WebAssembly only |
+//! | `web`, `web_figures` | the façade for the page, on WebAssembly only |
 //! | `main.rs`, `command/` | the command, native only |
 
 pub mod action;
@@ -75,8 +67,6 @@ pub mod vector;
 pub mod verdict;
 #[cfg(target_arch = "wasm32")]
 pub mod web;
-#[cfg(target_arch = "wasm32")]
-pub mod web_figures;
 
 /// The README's example runs with the tests in the documentation.
 #[cfg(doctest)]

@@ -284,11 +284,8 @@ impl Layer {
 impl Plot {
     /// The picture as a standalone SVG document.
     pub fn to_svg(&self) -> String {
-        let columns = self.columns.max(1);
-        let rows = self.panels.len().div_ceil(columns);
-        let cell_width = TOTAL_WIDTH / columns as f64;
-        let cell_height = if columns == 1 { 330.0 } else { (cell_width * 0.72).max(250.0) };
-        let height = HEADER + rows as f64 * cell_height + 8.0;
+        let rows = self.panels.len().div_ceil(self.columns.max(1));
+        let height = HEADER + rows as f64 * self.cell().1 + 8.0;
         let id = escaped(&self.id);
         let mut out = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" role=\"img\" aria-labelledby=\"{id}-title {id}-description\" font-family=\"system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif\" font-size=\"12\" fill=\"{INK}\">\n<title id=\"{id}-title\">{}</title>\n<desc id=\"{id}-description\">{}</desc>\n<rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n<text x=\"16\" y=\"28\" font-size=\"16\" font-weight=\"600\">{}</text>\n",
@@ -299,26 +296,102 @@ impl Plot {
             h = number(height),
         );
         for (k, panel) in self.panels.iter().enumerate() {
-            let has_map = panel.layers.iter().any(|l| matches!(l, Layer::Map { .. }));
-            let (left, right, top, bottom) = (62.0, if has_map { 74.0 } else { 18.0 }, 44.0, 46.0);
-            let frame = Frame {
-                width: cell_width - left - right,
-                height: cell_height - top - bottom,
-                left: (k % columns) as f64 * cell_width + left,
-                right,
-                top: HEADER + (k / columns) as f64 * cell_height + top,
-                bottom,
-            };
-            panel.draw(&mut out, &frame, &format!("{id}-{k}"));
+            panel.draw(&mut out, &self.frame(k), &format!("{id}-{k}"));
         }
         out.push_str("</svg>\n");
         out
     }
+
+    /// Width and height of a panel with the room around it.
+    fn cell(&self) -> (f64, f64) {
+        let columns = self.columns.max(1);
+        let width = TOTAL_WIDTH / columns as f64;
+        (width, if columns == 1 { 330.0 } else { (width * 0.72).max(250.0) })
+    }
+
+    fn frame(&self, k: usize) -> Frame {
+        let (columns, (cell_width, cell_height)) = (self.columns.max(1), self.cell());
+        let (left, right, top, bottom) =
+            (62.0, if self.panels[k].has_map() { 74.0 } else { 18.0 }, 44.0, 46.0);
+        Frame {
+            width: cell_width - left - right,
+            height: cell_height - top - bottom,
+            left: (k % columns) as f64 * cell_width + left,
+            right,
+            top: HEADER + (k / columns) as f64 * cell_height + top,
+            bottom,
+        }
+    }
+
+    /// Where the axes of every panel lie in the picture and what they span, for who points at a place and asks what
+    /// it means.
+    pub fn fields(&self) -> Vec<Field<'_>> {
+        let one = |(k, panel): (usize, &'_ Panel)| {
+            let (frame, [x, y]) = (self.frame(k), panel.spans());
+            Field {
+                title: &self.panels[k].title,
+                left: frame.left,
+                top: frame.top,
+                width: frame.width,
+                height: frame.height,
+                x: Span {
+                    label: &self.panels[k].x.label,
+                    low: x.0,
+                    high: x.1,
+                    signed_log: panel.x.signed_log,
+                },
+                y: Span {
+                    label: &self.panels[k].y.label,
+                    low: y.0,
+                    high: y.1,
+                    signed_log: panel.y.signed_log,
+                },
+            }
+        };
+        self.panels.iter().enumerate().map(one).collect()
+    }
+}
+
+/// The rectangle between the axes of a panel, in units of the picture.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Field<'a> {
+    /// The panel's title.
+    pub title: &'a str,
+    /// Left edge.
+    pub left: f64,
+    /// Upper edge.
+    pub top: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+    /// From left to right.
+    pub x: Span<'a>,
+    /// From bottom to top.
+    pub y: Span<'a>,
+}
+
+/// What an axis spans.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Span<'a> {
+    /// What it measures, with the unit.
+    pub label: &'a str,
+    /// Value at its beginning.
+    pub low: f64,
+    /// Value at its end.
+    pub high: f64,
+    /// Whether it is the signed logarithmic scale of [`crate::colour`].
+    pub signed_log: bool,
 }
 
 impl Panel {
-    fn draw(&self, out: &mut String, frame: &Frame, id: &str) {
-        let has_map = self.layers.iter().any(|l| matches!(l, Layer::Map { .. }));
+    fn has_map(&self) -> bool {
+        self.layers.iter().any(|l| matches!(l, Layer::Map { .. }))
+    }
+
+    /// Ends of the two axes.
+    fn spans(&self) -> [(f64, f64); 2] {
+        let has_map = self.has_map();
         let room = if has_map { 0.0 } else { 0.06 };
         let x_room = if has_map || !self.layers.iter().any(|l| matches!(l, Layer::Points { .. })) {
             0.0
@@ -327,6 +400,11 @@ impl Panel {
         };
         let x = ends(&self.x, self.layers.iter().flat_map(Layer::abscissae), x_room);
         let y = ends(&self.y, self.layers.iter().flat_map(Layer::ordinates), room);
+        [x, y]
+    }
+
+    fn draw(&self, out: &mut String, frame: &Frame, id: &str) {
+        let (has_map, [x, y]) = (self.has_map(), self.spans());
         let (left, bottom) = (frame.left, frame.top + frame.height);
         let x = Mapping {
             low: x.0,

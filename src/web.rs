@@ -1,6 +1,7 @@
 //! The door of the WebAssembly module: numbers and texts in, typed arrays and JSON out, and the maps painted on
 //! their canvas. It decides nothing; a refusal comes out as the text of [`crate::error::Invalid`].
 
+mod figures;
 mod theory;
 
 use crate::action::Action;

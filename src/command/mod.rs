@@ -32,14 +32,12 @@ pub(crate) struct Subcommand {
 /// Every subcommand, in the order in which the help shows them.
 const SUBCOMMANDS: &[Subcommand] = &[
     run::SUBCOMMAND,
-    stability::SUBCOMMAND,
-    reproduce::SUBCOMMAND,
     batch::SUBCOMMAND,
     stability::SUBCOMMAND,
+    reproduce::SUBCOMMAND,
     presets::SUBCOMMAND,
     parameters::SUBCOMMAND,
     replay::SUBCOMMAND,
-    reproduce::SUBCOMMAND,
 ];
 
 /// Why there is no result.

@@ -45,7 +45,7 @@ const verdict: Verdict = {
   alike: true,
   reaction_time: 0.75,
   critical: 0.683869,
-  critical_discrete: 0.678869,
+  critical_discrete: 0.678869, scale: null,
   rate: Math.LN2 / 43,
   mode: 8,
   equilibrium_speed: 10.7,

@@ -239,9 +239,30 @@ export interface Claim {
   readonly method: string
 }
 
+/** What an axis of a picture spans. */
+export interface Span {
+  readonly label: string
+  readonly low: number
+  readonly high: number
+  /** Whether it is the signed logarithmic scale. */
+  readonly signed_log: boolean
+}
+
+/** The rectangle between the axes of a panel, in units of the picture. */
+export interface Field {
+  readonly title: string
+  readonly left: number
+  readonly top: number
+  readonly width: number
+  readonly height: number
+  readonly x: Span
+  readonly y: Span
+}
+
 /** What a figure gives. */
 export interface FigureOutcome {
   readonly svg: string
+  readonly fields: readonly Field[]
   readonly claims: readonly Claim[]
   readonly tables: readonly { readonly name: string; readonly csv: string }[]
 }

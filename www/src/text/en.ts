@@ -300,11 +300,11 @@ export const en = {
       `${n} vehicles, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
     drag: 'drag the point',
     /** A curve and its value at the point's N. */
-    discrete: (dt: string, s: number | null): string => `τ in steps of ${dt} s: ${tau(s)}`,
-    continuous: (s: number | null): string => `τ, continuous time: ${tau(s)}`,
+    discrete: (s: number | null): string => `τ in steps: ${tau(s)}`,
+    continuous: (s: number | null): string => `τ continuous: ${tau(s)}`,
     newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
     describe: (n: number, discrete: number | null, continuous: number | null, newell: number | null): string =>
-      `The plane of vehicles and reaction time. With ${n} vehicles the curve stands at ${tau(discrete)}, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`,
+      `The plane of vehicles and reaction time. With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`,
     common: 'The curves are those of the drivers without an exception.',
   },
 
@@ -313,7 +313,7 @@ export const en = {
     note: (n: number): string => `${n === 1 ? '1 mode' : `${n} modes`}, s in 1/s`,
     real: 'growth Re s (1/s)',
     imaginary: 'Im s (1/s)',
-    dominant: 'leading root of each mode',
+    dominant: 'leading roots',
     next: 'next roots',
     fades: 'fades',
     grows: 'grows',
@@ -371,7 +371,8 @@ export const en = {
     symbols: { agrees: '✓', differs: '✗', open: '?' },
     summary: (agree: number, differ: number, open: number): string =>
       `${agree + differ + open} claims: ${agree} agree, ${differ} differ, ${open} not determined by the paper.`,
-    point: (panel: string, x: string, y: string): string => `${panel}: ${x}, ${y}`,
+    point: (x: string, atX: string, y: string, atY: string): string => `${x}: ${atX} · ${y}: ${atY}`,
+    hint: 'Point at the picture to read values.',
   },
 }
 

@@ -106,8 +106,8 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     c.clip()
     // Often within a pixel of each other: the wider lie below, so that each can be seen.
     for (const [values, colour, dash, width] of [
-      [curves.newell_s, style('--soft'), [2, 4], 7],
-      [curves.continuous_s, style('--accent'), [7, 4], 4],
+      [curves.newell_s, style('--soft'), [2, 5], 5],
+      [curves.continuous_s, style('--accent'), [8, 8], 3],
       [curves.discrete_s, style('--ink'), [], 1.5],
     ] as const) {
       c.beginPath()
@@ -156,18 +156,16 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     const at = curves.vehicles.findIndex(n => n >= vehicles)
     const [discrete, continuous, newell] = [curves.discrete_s, curves.continuous_s, curves.newell_s].map(c => c[at] ?? null)
     const words = t.describe(vehicles, discrete!, continuous!, newell!)
-    // The time step is in the words of a curve only.
-    const key = `${words} ${session.snapshot.scenario.time_step}`
-    if (key === described) return
-    described = key
+    if (words === described) return
+    described = words
     canvas.setAttribute('aria-label', words)
-    lines.replaceChildren(
-      keys([
-        { label: t.discrete(String(session.snapshot.scenario.time_step), discrete!), colour: 'var(--ink)' },
-        { label: t.continuous(continuous!), colour: 'var(--accent)', dash: [7, 4] },
-        { label: t.newell(newell!), colour: 'var(--soft)', dash: [2, 4] },
-      ]),
-    )
+    const names = keys([
+      { label: t.discrete(discrete!), colour: 'var(--ink)' },
+      { label: t.continuous(continuous!), colour: 'var(--accent)', dash: [8, 8] },
+      { label: t.newell(newell!), colour: 'var(--soft)', dash: [2, 5] },
+    ])
+    ;(names.lastElementChild as HTMLElement).style.setProperty('--dash', 'dotted')
+    lines.replaceChildren(names)
   }
   const draw = () => {
     if (!session.snapshot || !curves) return
@@ -236,22 +234,27 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     preview(null)
     show()
   }
-  /** From the pointer to the middle of the point. */
-  let grip: readonly [number, number] | null = null
+  /** From the pointer to the middle of the point, and the picture when it was taken: words that come and go may move
+   * the picture, but not what the hand does. */
+  let grip: { dx: number; dy: number; frame: Frame } | null = null
   handle.addEventListener('pointerdown', event => {
     if (event.button !== 0) return
     const box = handle.getBoundingClientRect()
-    grip = [box.left + box.width / 2 - event.clientX, box.top + box.height / 2 - event.clientY]
+    const picture = canvas.getBoundingClientRect()
+    grip = {
+      dx: box.left + box.width / 2 - event.clientX - picture.left,
+      dy: box.top + box.height / 2 - event.clientY - picture.top,
+      frame: size(),
+    }
     handle.setPointerCapture(event.pointerId)
     handle.focus()
     event.preventDefault()
   })
   handle.addEventListener('pointermove', event => {
     if (!grip) return
-    const f = size()
-    const box = canvas.getBoundingClientRect()
-    const x = event.clientX + grip[0] - box.left
-    const y = event.clientY + grip[1] - box.top
+    const f = grip.frame
+    const x = event.clientX + grip.dx
+    const y = event.clientY + grip.dy
     move(((x - f.left) / (f.right - f.left)) * last(), ((f.bottom - y) / (f.bottom - f.top)) * highest())
   })
   handle.addEventListener('pointerup', () => {

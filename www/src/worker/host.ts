@@ -160,7 +160,7 @@ export class Host {
       const outcome = new FigureOutcome(figure, pieces)
       try {
         const table = (_: unknown, k: number) => ({ name: outcome.table_name(k), csv: outcome.csv(k) })
-        return { svg: outcome.svg(), claims: JSON.parse(outcome.claims()), tables: Array.from({ length: outcome.tables() }, table) }
+        return { svg: outcome.svg(), fields: JSON.parse(outcome.fields()), claims: JSON.parse(outcome.claims()), tables: Array.from({ length: outcome.tables() }, table) }
       } finally {
         outcome.free()
       }

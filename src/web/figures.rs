@@ -59,6 +59,11 @@ impl FigureOutcome {
         self.0.plot.to_svg()
     }
 
+    /// Where the axes of its panels lie and what they span, as JSON.
+    pub fn fields(&self) -> String {
+        serde_json::to_string(&self.0.plot.fields()).unwrap_or_default()
+    }
+
     /// Number of tables.
     pub fn tables(&self) -> usize {
         self.0.tables.len()
