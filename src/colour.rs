@@ -6,12 +6,7 @@
 //! Blue against amber, and cividis (Nuñez, Anderton & Renslow, PLoS ONE 13, 2018) for absolute values, are safe
 //! for colour-blind eyes.
 
-<<<<<<< HEAD
-// 0xRRGGBB is how colours are written everywhere.
-#![allow(clippy::unreadable_literal)]
-=======
 #![allow(clippy::unreadable_literal)] // colours: red, green and blue, two hexadecimal digits each
->>>>>>> main
 
 /// ε, m/s: where the scale turns from linear to logarithmic.
 pub const SMALLEST: f64 = 0.01;

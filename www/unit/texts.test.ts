@@ -52,7 +52,6 @@ const verdict: Verdict = {
   flow: 0.54,
   density: 0.05,
   lane: 1,
-  scale: null,
 }
 const plain = (s: string) => s.replaceAll('\u202f', ' ')
 
