@@ -109,16 +109,27 @@ mod chunk {
         #[allow(unsafe_code, clippy::cast_ptr_alignment)]
         pub(crate) fn load(slice: &[f64], start: usize) -> Self {
             let from = slice[start..start + CHUNK].as_ptr().cast::<v128>();
-            // SAFETY: the slice has CHUNK numbers, which are CHUNK / 2 vectors; the load needs no alignment.
-            Self(std::array::from_fn(|k| unsafe { v128_load(from.add(k)) }))
+            // SAFETY: the slice has CHUNK numbers, which are four vectors; the load needs no alignment.
+            unsafe {
+                Self([
+                    v128_load(from),
+                    v128_load(from.add(1)),
+                    v128_load(from.add(2)),
+                    v128_load(from.add(3)),
+                ])
+            }
         }
         #[inline(always)]
         #[allow(unsafe_code, clippy::cast_ptr_alignment)]
         pub(crate) fn store(self, slice: &mut [f64], start: usize) {
             let to = slice[start..start + CHUNK].as_mut_ptr().cast::<v128>();
-            for (k, vector) in self.0.into_iter().enumerate() {
-                // SAFETY: as in `load`.
-                unsafe { v128_store(to.add(k), vector) };
+            let [a, b, c, d] = self.0;
+            // SAFETY: as in `load`.
+            unsafe {
+                v128_store(to, a);
+                v128_store(to.add(1), b);
+                v128_store(to.add(2), c);
+                v128_store(to.add(3), d);
             }
         }
         #[inline(always)]
@@ -134,8 +145,9 @@ mod chunk {
         #[inline(always)]
         pub(crate) fn all_within(self, bound: f64) -> bool {
             let bound = f64x2_splat(bound);
-            let [a, b, c, d] = self.0.map(|x| f64x2_le(f64x2_abs(x), bound));
-            i64x2_all_true(v128_and(v128_and(a, b), v128_and(c, d)))
+            let within = |x| f64x2_le(f64x2_abs(x), bound);
+            let [a, b, c, d] = self.0;
+            i64x2_all_true(v128_and(v128_and(within(a), within(b)), v128_and(within(c), within(d))))
         }
         /// `other` where it is smaller.
         #[inline(always)]
