@@ -132,7 +132,7 @@ test-lint:
 test-hashes: target/hashes.json
 
 test-lint-wasm: target/hashes.json
-	cargo clippy --locked $(WASM) --all-targets -- -D warnings
+	cargo clippy --locked $(WASM) --lib --test web -- -D warnings
 
 test-documentation:
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps --lib
