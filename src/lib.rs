@@ -34,7 +34,6 @@
 //! | [`plot`], [`colour`] | tables to pictures |
 //! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 //! | `web` | the façade for the page, on WebAssembly only |
-//! | `web`, `web_figures` | the façade for the page, on WebAssembly only |
 //! | `main.rs`, `command/` | the command, native only |
 
 pub mod action;

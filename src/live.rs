@@ -337,7 +337,8 @@ impl Live {
             let mut cell = (x / width - 0.5).ceil().max(0.0);
             loop {
                 let part = ((cell + 0.5) * width - x) / gap;
-                if !(part < 1.0) {
+                // NaN, for a headway of 0, ends it too.
+                if part.is_nan() || part >= 1.0 {
                     break;
                 }
                 cells[cell as usize % cells.len()] = (v + part * (ahead - v)) as f32;

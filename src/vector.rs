@@ -1,6 +1,6 @@
 //! Vectors as wide as the machine has them, chosen at run time; the one room with `unsafe` in it.
 //!
-//! A *kernel* is a loop over [`Chunk`]s of [`CHUNK`] numbers. `kernel!` compiles it once for each width that the
+//! A *kernel* is a loop over chunks of [`CHUNK`] numbers. `kernel!` compiles it once for each width that the
 //! target knows. On x86-64 the compiler turns the chunks' arrays into vectors of that width; in WebAssembly, where
 //! the page's code is built for size, they are vectors of 128 bits by name. All versions do the same operations on
 //! each number, each rounding once, so that results do not depend on the width: a test holds one against the other.
@@ -46,18 +46,14 @@ mod chunk {
         }
         #[inline(always)]
         pub(crate) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-            let mut out = [0.0; CHUNK];
-            for j in 0..CHUNK {
-                out[j] = f(self.0[j], other.0[j]);
-            }
-            Self(out)
+            Self(std::array::from_fn(|j| f(self.0[j], other.0[j])))
         }
         /// Whether |x| ≤ `bound` for all; false where one is NaN.
         #[inline(always)]
         pub(crate) fn all_within(self, bound: f64) -> bool {
             let mut outside = 0_u64;
             for x in self.0 {
-                outside |= u64::from(!(x.abs() <= bound));
+                outside |= u64::from(x.is_nan() || x.abs() > bound);
             }
             outside == 0
         }
@@ -110,14 +106,14 @@ mod chunk {
 
     impl Chunk {
         #[inline(always)]
-        #[allow(unsafe_code)]
+        #[allow(unsafe_code, clippy::cast_ptr_alignment)]
         pub(crate) fn load(slice: &[f64], start: usize) -> Self {
             let from = slice[start..start + CHUNK].as_ptr().cast::<v128>();
             // SAFETY: the slice has CHUNK numbers, which are CHUNK / 2 vectors; the load needs no alignment.
             Self(std::array::from_fn(|k| unsafe { v128_load(from.add(k)) }))
         }
         #[inline(always)]
-        #[allow(unsafe_code)]
+        #[allow(unsafe_code, clippy::cast_ptr_alignment)]
         pub(crate) fn store(self, slice: &mut [f64], start: usize) {
             let to = slice[start..start + CHUNK].as_mut_ptr().cast::<v128>();
             for (k, vector) in self.0.into_iter().enumerate() {

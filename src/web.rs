@@ -1,6 +1,9 @@
 //! The door of the WebAssembly module: numbers and texts in, typed arrays and JSON out, and the maps painted on
 //! their canvas. It decides nothing; a refusal comes out as the text of [`crate::error::Invalid`].
 
+// What JavaScript hands over is owned, and errors go where `map_err` wants a function of one.
+#![allow(clippy::needless_pass_by_value)]
+
 mod figures;
 mod theory;
 
@@ -450,12 +453,11 @@ impl Painter {
     fn paint(&mut self, live: &Live) -> Result<(), JsValue> {
         let Some((canvas, context)) = &self.canvas else { return Ok(()) };
         let (made, kept) = (live.columns_made(), live.columns().len());
-        let new = match self.painted {
-            Some(painted) => (made - painted).min(kept as u64) as usize,
-            None => {
-                context.clear_rect(0.0, 0.0, COLUMNS as f64, BINS as f64);
-                kept
-            }
+        let new = if let Some(painted) = self.painted {
+            (made - painted).min(kept as u64) as usize
+        } else {
+            context.clear_rect(0.0, 0.0, COLUMNS as f64, BINS as f64);
+            kept
         };
         if new == 0 {
             return Ok(());

@@ -1,4 +1,5 @@
 //! Lane changing, held against a slow twin that is written from the sentences of the model.
+#![cfg(not(target_arch = "wasm32"))] // proptest is not there
 
 mod common;
 

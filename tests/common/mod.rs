@@ -1,6 +1,7 @@
 //! What several tests need: Fourier modes of a run, and the theory that they are held against.
 #![allow(dead_code)] // each test uses its part
 
+#[cfg(not(target_arch = "wasm32"))] // proptest is not there
 pub mod scenarios;
 pub mod twin;
 
