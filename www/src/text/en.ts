@@ -27,7 +27,7 @@ export const en = {
     choose: 'Experiments …',
     share: 'Share',
     files: 'Data',
-    figures: 'Paper figures',
+    figures: 'Figures',
     lab: 'Laboratory',
     help: 'Help',
     fullscreen: 'Full screen',
