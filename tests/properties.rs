@@ -1,4 +1,5 @@
 //! What holds in every run, over random scenarios.
+#![cfg(not(target_arch = "wasm32"))] // proptest is native
 
 mod common;
 
