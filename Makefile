@@ -56,7 +56,7 @@ TESTS := format lint hashes lint-wasm documentation rust csv types units size wa
 test: $(TESTS:%=test-%) ## run every test: core, command, CSV, WebAssembly and page
 	@echo
 	for name in $(TESTS); do \
-		grep -hE '^(test result: |Ran [0-9]|OK|FAILED)|^ *(Tests|Test Files) |^ *[0-9]+ (passed|skipped|flaky)|\bkB\b' \
+		grep -shE '^(test result: |Ran [0-9]|OK|FAILED)|^ *(Tests|Test Files) |^ *[0-9]+ (passed|skipped|flaky)|\bkB\b' \
 			$(LOGS)/test-$$name.log | sed "s/^ */$$name: /" || true; \
 	done
 
@@ -92,7 +92,7 @@ www/node_modules/.package-lock.json: www/package.json www/package-lock.json | se
 	$(NPM) ci --no-audit --no-fund
 	@touch $@
 
-# For size: it downloads faster, and with vectors of its own the core steps as fast as at level 3.
+# For size: it downloads faster. At level 3 it is about 25 kB larger, gzipped, and steps about 1.7 times as fast.
 www/pkg/ringroad_bg.wasm: $(CORE) | www/node_modules/.package-lock.json setup
 	@command -v wasm-opt >/dev/null || { echo 'wasm-opt is missing: the package binaryen of www/package.json brings it' >&2; exit 1; }
 	CARGO_PROFILE_RELEASE_OPT_LEVEL=s wasm-pack build --target web --out-dir www/pkg -- --locked --no-default-features
