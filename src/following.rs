@@ -1,28 +1,35 @@
-//! Car following, all vehicles at once: perceived headways to speeds.
+//! Car following, all vehicles at once: gaps to speeds.
 //!
-//! # The gap factor
+//! # The shortfall
 //!
-//! v = max(V − V·y, 0) with the *gap factor* y = exp(−(λ/V)(h − d)). From one step to the next h moves by a little,
-//! so y moves by a factor e^a with a small a = −(λ/V)·δh: |a| ≤ λ·dt for equal drivers. Where |a| ≤ 2⁻⁶ the factor is
-//! multiplied by the Taylor polynomial of degree 6, whose remainder a⁷/7! is below 5·10⁻¹⁷ relative; where a is
-//! larger (a nudge, a lane change, a large λ·dt) that vehicle's factor is evaluated in full. The choice is made
-//! vehicle by vehicle, so that it does not depend on the width of the vectors.
+//! v = max(V − w, 0) with the *shortfall* w = V·exp(−(λ/V)(h − d)), by which a driver stays below the maximum speed.
+//! The perceived headway h is the offset of the leader, which stays as it is while the leader does, plus the *gap*:
+//! by how much more the leader has driven than oneself, as it was seen. From one step to the next the gap
+//! moves by a little, so w moves by a factor e^a with a small a = −(λ/V)·δgap: |a| ≤ λ·dt for equal drivers. Where
+//! |a| ≤ 2⁻¹⁰ the shortfall is multiplied by the Taylor polynomial of degree 4, where |a| ≤ 2⁻⁶ by that of degree 6;
+//! their remainders, a⁵/5! and a⁷/7!, are below 10⁻¹⁷ relative. Where a is larger (a nudge, a large λ·dt) and
+//! where the leader has changed, that vehicle's shortfall is evaluated in full. The choice is made vehicle by
+//! vehicle, so that it does not depend on the width of the vectors.
 //!
-//! **Accuracy.** One multiplication by the polynomial rounds like y·(1 + ε) with |ε| under 5·10⁻¹⁶, the
-//! rounding of a itself included; every [`REFRESH`] steps all factors are evaluated in full. So y stays within
-//! 64·5·10⁻¹⁶ ≈ 3·10⁻¹⁴ of exp, for ever, over the whole range of the parameters, and v within V·y times that.
-//! Arguments of the full evaluation are held to ±700: y then means "stand still" (e^700) or "as fast as possible"
-//! (e^−700) and stays so through [`REFRESH`] steps of at most 2⁻⁶ each.
+//! **Accuracy.** One multiplication by a polynomial rounds like w·(1 + ε) with |ε| under 5·10⁻¹⁶, the
+//! rounding of a itself included; every [`REFRESH`] steps all shortfalls are evaluated in full. So w stays within
+//! 64·5·10⁻¹⁶ ≈ 3·10⁻¹⁴ of V times the exponential, for ever, over the whole range of the parameters, and v with it.
+//! Arguments of the full evaluation are held to ±700: w then means "stand still" (V·e^700) or "as fast as possible"
+//! (V·e^−700) and stays so through [`REFRESH`] steps of at most 2⁻⁶ each.
 
 use crate::driver::Driver;
 use crate::exp::exp_within;
-use crate::history::History;
-use crate::vector::{CHUNK, Chunk, Real, Width, kernel};
+use crate::history::images;
+#[cfg(doc)]
+use crate::reaction::Delays;
+use crate::vector::{CHUNK, Chunk, Real, Width, chunks, chunks_mut, kernel};
 
-/// Steps between full evaluations of all factors.
+/// Steps between full evaluations of all shortfalls.
 pub const REFRESH: u64 = 64;
 
-/// Largest |a| that the polynomial serves.
+/// Largest |a| that the polynomial of degree 4 serves.
+const TINY: f64 = 1.0 / 1024.0;
+/// Largest |a| that the polynomial of degree 6 serves.
 const SMALL: f64 = 1.0 / 64.0;
 
 /// V, −λ/V and d of a vehicle's driver.
@@ -43,10 +50,11 @@ impl Law {
     }
 }
 
-/// Perceived headways, gap factors and speeds of all vehicles; padded to whole chunks.
+/// Gaps, shortfalls and speeds of all vehicles; padded to whole chunks.
 #[derive(Clone, Debug)]
 pub struct Following {
     width: Width,
+    vehicles: usize,
     state: State,
     laws: Laws,
     /// The one law of all vehicles, if there is one: its constants then need not be read vehicle by vehicle.
@@ -55,8 +63,8 @@ pub struct Following {
 
 #[derive(Clone, Debug)]
 struct State {
-    perceived: Vec<f64>,
-    factor: Vec<f64>,
+    gap: Vec<f64>,
+    shortfall: Vec<f64>,
     speed: Vec<f64>,
 }
 
@@ -67,22 +75,25 @@ struct Laws {
     min_headway: Vec<f64>,
 }
 
-/// A new factor from the old one: by the polynomial, which is wrong where `a` is not small.
+/// A new shortfall from the old one, where |a| ≤ [`TINY`].
 #[inline(always)]
-fn moved<T: Real>(factor: T, a: T) -> T {
+fn moved_a_little<T: Real>(shortfall: T, a: T) -> T {
+    let c = T::all;
+    let a2 = a * a;
+    let high = (c(1.0 / 2.0) + a * c(1.0 / 6.0)) + a2 * c(1.0 / 24.0);
+    shortfall * ((c(1.0) + a) + high * a2)
+}
+
+/// A new shortfall from the old one, where |a| ≤ [`SMALL`].
+#[inline(always)]
+fn moved<T: Real>(shortfall: T, a: T) -> T {
     // Taylor's polynomial, Estrin's scheme: short chains, so that a vector unit stays busy.
     let c = T::all;
     let a2 = a * a;
     let low = c(1.0) + a;
     let middle = c(1.0 / 2.0) + a * c(1.0 / 6.0);
     let high = (c(1.0 / 24.0) + a * c(1.0 / 120.0)) + a2 * c(1.0 / 720.0);
-    factor * ((low + middle * a2) + high * (a2 * a2))
-}
-
-#[inline(always)]
-fn is_small(a: f64) -> bool {
-    // False for NaN: a vehicle without a valid factor.
-    a.abs() <= SMALL
+    shortfall * ((low + middle * a2) + high * (a2 * a2))
 }
 
 /// The laws of one chunk of vehicles.
@@ -99,120 +110,208 @@ impl ChunkLaw {
         let all = Chunk::splat;
         Self { max_speed: all(law.max_speed), rate: all(law.rate), min_headway: all(law.min_headway) }
     }
+}
+
+/// The new shortfalls of one chunk of vehicles.
+#[inline(always)]
+fn respond(
+    gap: Chunk,
+    old_gap: &[f64; CHUNK],
+    shortfall: &[f64; CHUNK],
+    offset: &[f64; CHUNK],
+    law: ChunkLaw,
+    refresh: bool,
+) -> Chunk {
+    let (shortfall, a) = (Chunk::load(shortfall), law.rate * (gap - Chunk::load(old_gap)));
+    if refresh || !a.all_within(TINY) {
+        respond_rarely(gap, shortfall, a, Chunk::load(offset), law, refresh)
+    } else {
+        moved_a_little(shortfall, a)
+    }
+}
+
+/// The same where not all have moved by a little.
+#[inline(always)]
+fn respond_rarely(
+    gap: Chunk,
+    shortfall: Chunk,
+    a: Chunk,
+    offset: Chunk,
+    law: ChunkLaw,
+    refresh: bool,
+) -> Chunk {
+    let (little, much) = (moved_a_little(shortfall, a).to_array(), moved(shortfall, a).to_array());
+    let (a, argument, max_speed) =
+        (a.to_array(), (law.rate * ((offset + gap) - law.min_headway)).to_array(), law.max_speed.to_array());
+    let mut next = [0.0; CHUNK];
+    // False for NaN: a vehicle without a valid shortfall.
+    let small = |a: f64| a.abs() <= SMALL;
+    if refresh || !a.iter().all(|a| small(*a)) {
+        for j in 0..CHUNK {
+            next[j] = max_speed[j] * exp_within(argument[j]);
+        }
+    }
+    for j in 0..CHUNK {
+        if small(a[j]) && !refresh {
+            next[j] = if a[j].abs() <= TINY { little[j] } else { much[j] };
+        }
+    }
+    Chunk::load(&next)
+}
+
+kernel! {
+    /// A whole step where the leader of j is j + 1 and all have one law: positions from `old` to `new`, then gaps in the row
+    /// `seen`, which is not `new`, then speeds. `extremes`: see [`drive`].
+    fn advance_alike(
+        old: &[f64], seen: &[f64], offset: &[f64], law: Law, dt: f64, refresh: bool,
+        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64], new: &mut [f64], extremes: &mut [f64; 2],
+    ) {
+        let count = speed.len() / CHUNK;
+        let (old, new) = (&chunks(old)[..count], &mut chunks_mut(new)[..count]);
+        let (seen, ahead) = (&chunks(seen)[..count], &chunks(&seen[1..])[..count]);
+        let offset = &chunks(offset)[..count];
+        let gap = &mut chunks_mut(gap)[..count];
+        let shortfall = &mut chunks_mut(shortfall)[..count];
+        let speed = &mut chunks_mut(speed)[..count];
+        let law = ChunkLaw::common(law);
+        let (dt, still) = (Chunk::splat(dt), Chunk::splat(0.0));
+        let mut range = Extremes::of(&speed[0]);
+        for k in 0..count {
+            let v = Chunk::load(&speed[k]);
+            range.take(v);
+            (Chunk::load(&old[k]) + v * dt).store(&mut new[k]);
+            let now = Chunk::load(&ahead[k]) - Chunk::load(&seen[k]);
+            let next = respond(now, &gap[k], &shortfall[k], &offset[k], law, refresh);
+            now.store(&mut gap[k]);
+            next.store(&mut shortfall[k]);
+            still.most(law.max_speed - next).store(&mut speed[k]);
+        }
+        *extremes = range.reduced();
+    }
+}
+
+kernel! {
+    /// The same where drivers have laws of their own and one of a few delays: `seen` has a row for each delay, `chosen`
+    /// says who sees which; see [`Delays::few`].
+    fn advance_mixed(
+        old: &[f64], seen: &[&[f64]], chosen: &[Vec<f64>], offset: &[f64], laws: &Laws, dt: f64, refresh: bool,
+        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64], new: &mut [f64], extremes: &mut [f64; 2],
+    ) {
+        let count = speed.len() / CHUNK;
+        let (old, new) = (&chunks(old)[..count], &mut chunks_mut(new)[..count]);
+        let offset = &chunks(offset)[..count];
+        let gap = &mut chunks_mut(gap)[..count];
+        let shortfall = &mut chunks_mut(shortfall)[..count];
+        let speed = &mut chunks_mut(speed)[..count];
+        let max_speed = &chunks(&laws.max_speed)[..count];
+        let rate = &chunks(&laws.rate)[..count];
+        let min_headway = &chunks(&laws.min_headway)[..count];
+        let (dt, still) = (Chunk::splat(dt), Chunk::splat(0.0));
+        let difference = |row: &[f64], k: usize| {
+            Chunk::load(&chunks(&row[1..])[k]) - Chunk::load(&chunks(row)[k])
+        };
+        let mut range = Extremes::of(&speed[0]);
+        for k in 0..count {
+            let v = Chunk::load(&speed[k]);
+            range.take(v);
+            (Chunk::load(&old[k]) + v * dt).store(&mut new[k]);
+            let law = ChunkLaw {
+                max_speed: Chunk::load(&max_speed[k]),
+                rate: Chunk::load(&rate[k]),
+                min_headway: Chunk::load(&min_headway[k]),
+            };
+            let mut now = difference(seen[0], k);
+            for (row, mask) in seen[1..].iter().zip(chosen) {
+                now = Chunk::load(&chunks(mask)[k]).choose(difference(row, k), now);
+            }
+            let next = respond(now, &gap[k], &shortfall[k], &offset[k], law, refresh);
+            now.store(&mut gap[k]);
+            next.store(&mut shortfall[k]);
+            still.most(law.max_speed - next).store(&mut speed[k]);
+        }
+        *extremes = range.reduced();
+    }
+}
+
+kernel! {
+    /// Positions: x += v·dt. `extremes` gets the smallest and the largest speed.
+    fn drive(old: &[f64], speed: &[f64], dt: f64, new: &mut [f64], extremes: &mut [f64; 2]) {
+        let count = speed.len() / CHUNK;
+        let (old, new, speed) = (&chunks(old)[..count], &mut chunks_mut(new)[..count], &chunks(speed)[..count]);
+        let dt = Chunk::splat(dt);
+        let mut range = Extremes::of(&speed[0]);
+        for k in 0..count {
+            let v = Chunk::load(&speed[k]);
+            range.take(v);
+            (Chunk::load(&old[k]) + v * dt).store(&mut new[k]);
+        }
+        *extremes = range.reduced();
+    }
+}
+
+kernel! {
+    /// Speeds for the gaps `now`.
+    fn respond_all(
+        now: &[f64], offset: &[f64], laws: &Laws, refresh: bool,
+        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64],
+    ) {
+        let count = speed.len() / CHUNK;
+        let (now, offset) = (&chunks(now)[..count], &chunks(offset)[..count]);
+        let gap = &mut chunks_mut(gap)[..count];
+        let shortfall = &mut chunks_mut(shortfall)[..count];
+        let speed = &mut chunks_mut(speed)[..count];
+        let max_speed = &chunks(&laws.max_speed)[..count];
+        let rate = &chunks(&laws.rate)[..count];
+        let min_headway = &chunks(&laws.min_headway)[..count];
+        let still = Chunk::splat(0.0);
+        for k in 0..count {
+            let law = ChunkLaw {
+                max_speed: Chunk::load(&max_speed[k]),
+                rate: Chunk::load(&rate[k]),
+                min_headway: Chunk::load(&min_headway[k]),
+            };
+            let now = Chunk::load(&now[k]);
+            let next = respond(now, &gap[k], &shortfall[k], &offset[k], law, refresh);
+            now.store(&mut gap[k]);
+            next.store(&mut shortfall[k]);
+            still.most(law.max_speed - next).store(&mut speed[k]);
+        }
+    }
+}
+
+/// The smallest and the largest of the speeds so far, lane by lane of a chunk; the outcome does not depend on the order.
+#[derive(Clone, Copy)]
+struct Extremes {
+    least: Chunk,
+    most: Chunk,
+}
+
+impl Extremes {
+    #[inline(always)]
+    fn of(speed: &[f64; CHUNK]) -> Self {
+        let v = Chunk::load(speed);
+        Self { least: v, most: v }
+    }
 
     #[inline(always)]
-    fn of(laws: &Laws, start: usize) -> Self {
-        Self {
-            max_speed: Chunk::load(&laws.max_speed, start),
-            rate: Chunk::load(&laws.rate, start),
-            min_headway: Chunk::load(&laws.min_headway, start),
-        }
+    fn take(&mut self, v: Chunk) {
+        (self.least, self.most) = (self.least.least(v), self.most.most(v));
     }
-}
 
-/// New factors, speeds and perceived headways of one chunk of vehicles.
-#[inline(always)]
-fn respond_chunk(scene: Chunk, law: ChunkLaw, refresh: bool, state: &mut State, start: usize) {
-    let a = law.rate * (scene - Chunk::load(&state.perceived, start));
-    let mut next = moved(Chunk::load(&state.factor, start), a);
-    if refresh || !a.all_within(SMALL) {
-        next = some_in_full(next, a, law.rate * (scene - law.min_headway), refresh);
-    }
-    let v = law.max_speed - law.max_speed * next;
-    Chunk::splat(0.0).most(v).store(&mut state.speed, start);
-    next.store(&mut state.factor, start);
-    scene.store(&mut state.perceived, start);
-}
-
-/// The exponential in full of `argument`, for all where `all` says so, else where `a` is not small.
-#[inline(always)]
-fn some_in_full(next: Chunk, a: Chunk, argument: Chunk, all: bool) -> Chunk {
-    let (mut next, a, argument) = (next.to_array(), a.to_array(), argument.to_array());
-    for j in 0..CHUNK {
-        let full = exp_within(argument[j]);
-        next[j] = if all || !is_small(a[j]) { full } else { next[j] };
-    }
-    Chunk::load(&next, 0)
-}
-
-kernel! {
-    /// One law for all; the leader of j is j + 1: what everyone sees is `offset[j] + (seen[j+1] − seen[j])`.
-    fn respond_in_order(offset: &[f64], seen: &[f64], law: Law, refresh: bool, state: &mut State) {
-        let law = ChunkLaw::common(law);
-        for start in (0..offset.len()).step_by(CHUNK) {
-            let scene = Chunk::load(offset, start) + (Chunk::load(seen, start + 1) - Chunk::load(seen, start));
-            respond_chunk(scene, law, refresh, state, start);
-        }
-    }
-}
-
-kernel! {
-    /// One law for all, scenes as given.
-    fn respond_alike(scene: &[f64], law: Law, refresh: bool, state: &mut State) {
-        let law = ChunkLaw::common(law);
-        for start in (0..scene.len()).step_by(CHUNK) {
-            respond_chunk(Chunk::load(scene, start), law, refresh, state, start);
-        }
-    }
-}
-
-kernel! {
-    /// Everyone has a law of their own.
-    fn respond_apart(scene: &[f64], laws: &Laws, refresh: bool, state: &mut State) {
-        for start in (0..scene.len()).step_by(CHUNK) {
-            respond_chunk(Chunk::load(scene, start), ChunkLaw::of(laws, start), refresh, state, start);
-        }
-    }
-}
-
-kernel! {
-    /// Positions: x += v·dt. `extremes` gets the smallest and the largest of the first `vehicles` speeds, which does not
-    /// depend on the order of comparisons.
-    fn drive(old: &[f64], speed: &[f64], dt: f64, vehicles: usize, new: &mut [f64], extremes: &mut [f64; 2]) {
-        let (mut least, mut most) = (Chunk::splat(f64::INFINITY), Chunk::splat(f64::NEG_INFINITY));
-        let dt = Chunk::splat(dt);
-        let whole = vehicles - vehicles % CHUNK;
-        for start in (0..speed.len()).step_by(CHUNK) {
-            let v = Chunk::load(speed, start);
-            (Chunk::load(old, start) + v * dt).store(new, start);
-            if start < whole {
-                (least, most) = (least.least(v), most.most(v));
-            }
-        }
-        *extremes = [f64::INFINITY, f64::NEG_INFINITY];
-        let rest = &speed[whole..vehicles];
-        for v in least.to_array().iter().chain(&most.to_array()).chain(rest) {
-            if v.is_finite() {
-                *extremes = [extremes[0].min(*v), extremes[1].max(*v)];
-            }
-        }
-    }
-}
-
-kernel! {
-    /// What everyone sees where each has a delay of their own: row `head − delay` of `rows` rows, `row` numbers each.
-    fn see_apart(offset: &[f64], leaders: &[u32], delays: &[u32], data: &[f64], geometry: [u32; 3], scene: &mut [f64]) {
-        let [head, rows, row] = geometry;
-        for start in (0..delays.len()).step_by(CHUNK) {
-            let delays: &[u32; CHUNK] = (&delays[start..start + CHUNK]).try_into().expect("padded");
-            let leaders: &[u32; CHUNK] = (&leaders[start..start + CHUNK]).try_into().expect("padded");
-            let (offset, scene) = (&offset[start..start + CHUNK], &mut scene[start..start + CHUNK]);
-            for j in 0..CHUNK {
-                let back = if delays[j] > head { rows } else { 0 };
-                let begin = ((head + back) - delays[j]) as usize * row as usize;
-                scene[j] = offset[j] + (data[begin + leaders[j] as usize] - data[begin + start + j]);
-            }
-        }
+    #[inline(always)]
+    fn reduced(self) -> [f64; 2] {
+        [self.least.smallest(), self.most.largest()]
     }
 }
 
 impl Following {
-    /// For these drivers, in arrays padded to `padded` numbers; no factor is valid yet.
+    /// For these drivers, in arrays padded to `padded` numbers; no shortfall is valid yet.
     pub fn new(drivers: &[Driver], padded: usize) -> Self {
         let filled = |value| vec![value; padded];
         let mut following = Self {
             width: Width::widest(),
-            state: State { perceived: filled(f64::NAN), factor: filled(1.0), speed: filled(0.0) },
+            vehicles: drivers.len(),
+            state: State { gap: filled(f64::NAN), shortfall: filled(0.0), speed: filled(0.0) },
             laws: Laws { max_speed: filled(1.0), rate: filled(-1.0), min_headway: filled(1.0) },
             common: None,
         };
@@ -228,12 +327,18 @@ impl Following {
         self.width = width;
     }
 
-    /// Takes over the law of a driver that has changed; the vehicle's factor is no longer valid.
+    fn images(&self, j: usize) -> impl Iterator<Item = usize> + use<> {
+        images(j, self.vehicles)
+    }
+
+    /// Takes over the law of a driver that has changed; the vehicle's shortfall is no longer valid.
     pub fn set_driver(&mut self, j: usize, driver: &Driver) {
         let law = Law::of(driver);
-        self.laws.max_speed[j] = law.max_speed;
-        self.laws.rate[j] = law.rate;
-        self.laws.min_headway[j] = law.min_headway;
+        for j in self.images(j) {
+            self.laws.max_speed[j] = law.max_speed;
+            self.laws.rate[j] = law.rate;
+            self.laws.min_headway[j] = law.min_headway;
+        }
         self.invalidate(j);
     }
 
@@ -243,15 +348,17 @@ impl Following {
         self.common = drivers.iter().all(|d| Law::of(d) == first).then_some(first);
     }
 
-    /// Has the vehicle's factor evaluated in full next time.
+    /// Has the vehicle's shortfall evaluated in full next time.
     pub fn invalidate(&mut self, j: usize) {
-        self.state.perceived[j] = f64::NAN;
+        for j in self.images(j) {
+            self.state.gap[j] = f64::NAN;
+        }
     }
 
-    /// Perceived headways, m (padded).
+    /// By how much more the leader of each vehicle has driven than the vehicle itself, as seen, m (padded).
     #[inline]
-    pub fn perceived(&self) -> &[f64] {
-        &self.state.perceived
+    pub fn gaps(&self) -> &[f64] {
+        &self.state.gap
     }
 
     /// Speeds, m/s (padded).
@@ -262,66 +369,90 @@ impl Following {
 
     /// Overrules the law: a braked vehicle.
     pub fn set_speed(&mut self, j: usize, speed: f64) {
-        self.state.speed[j] = speed;
+        for j in self.images(j) {
+            self.state.speed[j] = speed;
+        }
     }
 
-    /// What everyone sees, each with a delay of their own; all slices padded.
-    pub fn see_apart(
-        &self,
+    /// A whole step of `dt` seconds at once, where the leader of j is j + 1 and what is seen is there already: the row
+    /// of each of the few delays, and who sees which; see [`Delays::few`]. Displacements go from `old` to `new`; all
+    /// shortfalls in full where `refresh` says so. Tells how far the fastest has gone ahead of the slowest, m.
+    pub(crate) fn advance_in_order(
+        &mut self,
+        old: &[f64],
+        new: &mut [f64],
+        seen: &[&[f64]],
+        chosen: &[Vec<f64>],
         offset: &[f64],
-        leaders: &[u32],
-        delays: &[u32],
-        history: &History,
-        scene: &mut [f64],
-    ) {
-        let (data, geometry) = history.rows();
-        see_apart(self.width, offset, leaders, delays, data, geometry, scene);
-    }
-
-    /// New displacements after a step of `dt` seconds; how far the fastest of the first `vehicles` has gone ahead of the
-    /// slowest, m.
-    pub fn drive(&self, old: &[f64], dt: f64, vehicles: usize, new: &mut [f64]) -> f64 {
+        dt: f64,
+        refresh: bool,
+    ) -> f64 {
         let mut extremes = [0.0; 2];
-        drive(self.width, old, &self.state.speed, dt, vehicles, new, &mut extremes);
+        let (width, State { gap, shortfall, speed }) = (self.width, &mut self.state);
+        let extremes_of = &mut extremes;
+        match (self.common, seen) {
+            (Some(law), [seen]) => {
+                advance_alike(
+                    width,
+                    old,
+                    seen,
+                    offset,
+                    law,
+                    dt,
+                    refresh,
+                    gap,
+                    shortfall,
+                    speed,
+                    new,
+                    extremes_of,
+                );
+            }
+            _ => advance_mixed(
+                width,
+                old,
+                seen,
+                chosen,
+                offset,
+                &self.laws,
+                dt,
+                refresh,
+                gap,
+                shortfall,
+                speed,
+                new,
+                extremes_of,
+            ),
+        }
         (extremes[1] - extremes[0]) * dt
     }
 
-    /// New speeds where the leader of j is j + 1, and the displacements that all see are in one row `seen`, in which
-    /// the first vehicle's stands again behind the last one's. All factors in full where `refresh` says so.
-    ///
-    /// Where drivers have laws of their own, `scene` holds what they see in the meantime.
-    pub fn respond_in_order(&mut self, offset: &[f64], seen: &[f64], scene: &mut [f64], refresh: bool) {
-        if let Some(law) = self.common {
-            respond_in_order(self.width, offset, seen, law, refresh, &mut self.state);
-        } else {
-            for ((scene, offset), pair) in scene.iter_mut().zip(offset).zip(seen.windows(2)) {
-                *scene = offset + (pair[1] - pair[0]);
-            }
-            self.respond(scene, refresh);
-        }
+    /// New displacements after a step of `dt` seconds; how far the fastest has gone ahead of the slowest, m.
+    pub fn drive(&self, old: &[f64], dt: f64, new: &mut [f64]) -> f64 {
+        let mut extremes = [0.0; 2];
+        drive(self.width, old, &self.state.speed, dt, new, &mut extremes);
+        (extremes[1] - extremes[0]) * dt
     }
 
-    /// New speeds for the perceived headways `scene` (m, padded); all factors in full where `refresh` says so.
-    pub fn respond(&mut self, scene: &[f64], refresh: bool) {
-        match self.common {
-            Some(law) => respond_alike(self.width, scene, law, refresh, &mut self.state),
-            None => respond_apart(self.width, scene, &self.laws, refresh, &mut self.state),
-        }
+    /// New speeds for the gaps `now` (m, padded) to leaders at `offset`; all shortfalls in full where `refresh` says so.
+    pub fn respond(&mut self, now: &[f64], offset: &[f64], refresh: bool) {
+        let State { gap, shortfall, speed } = &mut self.state;
+        respond_all(self.width, now, offset, &self.laws, refresh, gap, shortfall, speed);
     }
 
-    /// The same for one vehicle whose scene has changed within a step.
-    pub fn respond_one(&mut self, j: usize, scene: f64) {
-        let (max_speed, rate) = (self.laws.max_speed[j], self.laws.rate[j]);
-        let a = rate * (scene - self.state.perceived[j]);
-        let factor = if is_small(a) {
-            moved(self.state.factor[j], a)
-        } else {
-            exp_within(rate * (scene - self.laws.min_headway[j]))
+    /// The same for one vehicle that has another leader.
+    pub fn respond_to_another(&mut self, j: usize, gap: f64, offset: f64) {
+        let law = Law {
+            max_speed: self.laws.max_speed[j],
+            rate: self.laws.rate[j],
+            min_headway: self.laws.min_headway[j],
         };
-        let v = max_speed - max_speed * factor;
-        self.state.speed[j] = if v > 0.0 { v } else { 0.0 };
-        self.state.factor[j] = factor;
-        self.state.perceived[j] = scene;
+        let shortfall = law.max_speed * exp_within(law.rate * ((offset + gap) - law.min_headway));
+        let v = law.max_speed - shortfall;
+        for j in self.images(j) {
+            self.state.gap[j] = gap;
+            self.state.shortfall[j] = shortfall;
+            self.state.speed[j] = if v > 0.0 { v } else { 0.0 };
+        }
     }
 }
 
@@ -330,8 +461,10 @@ mod tests {
     use super::*;
     use crate::random::{Generator, Stream};
 
+    const OFFSET: [f64; CHUNK] = [20.0; CHUNK];
+
     /// Over the corners of what the table of parameters allows: headways that wander as far as a step can take them,
-    /// a million steps, vehicles with one law and with laws of their own.
+    /// a million steps, moves that both polynomials serve and moves that none does.
     #[test]
     fn a_million_steps_stay_within_the_stated_error_of_the_exponential() {
         let mut generator = Generator::new(1, Stream::Start);
@@ -339,24 +472,21 @@ mod tests {
         for max_speed in [0.1, 40.0, 100.0] {
             for sensitivity in [0.01, 1.0, 20.0] {
                 for (dt, steps) in [(0.001, 1_000_000_u64), (0.01, 100_000), (0.5, 10_000)] {
-                    for apart in [false, true] {
-                        let mut drivers = [Driver { max_speed, sensitivity, ..Driver::default() }; CHUNK];
-                        if apart {
-                            drivers[0].min_headway = 9.0;
-                        }
+                    for share in [1.0, 0.1] {
+                        let drivers = [Driver { max_speed, sensitivity, ..Driver::default() }; CHUNK];
                         let mut following = Following::new(&drivers, CHUNK);
-                        let mut scene = [20.0; CHUNK];
+                        let mut gap = [0.0; CHUNK];
                         for step in 0..steps {
-                            following.respond(&scene, step.is_multiple_of(REFRESH));
+                            following.respond(&gap, &OFFSET, step.is_multiple_of(REFRESH));
                             if step % REFRESH == REFRESH - 1 {
                                 for (j, driver) in drivers.iter().enumerate() {
-                                    let error = (following.speeds()[j] - driver.speed(scene[j])).abs();
+                                    let error = (following.speeds()[j] - driver.speed(20.0 + gap[j])).abs();
                                     worst = worst.max(error / max_speed);
                                 }
                             }
-                            for h in &mut scene {
-                                *h += (generator.uniform() - 0.5) * 2.0 * max_speed * dt;
-                                *h = h.abs();
+                            for g in &mut gap {
+                                *g += (generator.uniform() - 0.5) * 2.0 * share * max_speed * dt;
+                                *g = (20.0 + *g).abs() - 20.0;
                             }
                         }
                     }
@@ -365,15 +495,17 @@ mod tests {
         }
         println!("largest error: {worst:e} V");
         assert!(worst < 3e-14, "largest error {worst:e} V");
-        assert!(worst > 0.0, "the factor is not evaluated anew at every step");
+        assert!(worst > 0.0, "the shortfall is not evaluated anew at every step");
     }
 
-    /// The polynomial against the exponential where it is used.
+    /// The polynomials against the exponential where they are used.
     #[test]
-    fn one_step_of_the_factor_is_good_to_rounding() {
+    fn one_step_of_the_shortfall_is_good_to_rounding() {
         for k in -10_000..=10_000 {
-            let a = f64::from(k) * 1e-4 * SMALL;
-            assert!((moved(1.0, a) / exp_within(a) - 1.0).abs() < 5e-16, "a = {a}");
+            let a = f64::from(k) * 1e-4;
+            let error = |moved: f64, a: f64| (moved / exp_within(a) - 1.0).abs();
+            assert!(error(moved_a_little(1.0, a * TINY), a * TINY) < 5e-16, "a = {}", a * TINY);
+            assert!(error(moved(1.0, a * SMALL), a * SMALL) < 5e-16, "a = {}", a * SMALL);
         }
     }
 
@@ -381,35 +513,96 @@ mod tests {
     fn a_jump_is_evaluated_in_full_and_does_not_touch_the_others() {
         let driver = Driver::default();
         let mut following = Following::new(&[driver; CHUNK], CHUNK);
-        let mut scene = [20.0; CHUNK];
-        following.respond(&scene, true);
-        scene[3] = 8.0;
-        scene[4] = 20.0 + 1e-9;
-        following.respond(&scene, false);
+        let mut gap = [0.0; CHUNK];
+        following.respond(&gap, &OFFSET, true);
+        gap[3] = -12.0;
+        gap[4] = 1e-9;
+        following.respond(&gap, &OFFSET, false);
         assert_eq!(following.speeds()[3], driver.speed(8.0));
         assert_eq!(following.speeds()[2], driver.speed(20.0));
-        scene[3] = -1e6;
-        scene[5] = 1e9;
-        following.respond(&scene, false);
+        gap[3] = -1e6;
+        gap[5] = 1e9;
+        following.respond(&gap, &OFFSET, false);
         assert_eq!((following.speeds()[3], following.speeds()[5]), (0.0, 40.0));
         // Back from where the exponential would have overflowed.
-        scene[3] = 20.0;
-        following.respond(&scene, false);
+        gap[3] = 0.0;
+        following.respond(&gap, &OFFSET, false);
         assert_eq!(following.speeds()[3], driver.speed(20.0));
     }
 
     #[test]
-    fn one_vehicle_and_all_at_once_agree_to_the_bit() {
-        let drivers = [Driver { sensitivity: 1.3, ..Driver::default() }; CHUNK];
-        let (mut one, mut all) = (Following::new(&drivers, CHUNK), Following::new(&drivers, CHUNK));
-        let mut generator = Generator::new(3, Stream::Start);
-        for _ in 0..1000 {
-            let scene: [f64; CHUNK] = std::array::from_fn(|_| 20.0 + generator.uniform());
-            all.respond(&scene, false);
-            for (j, h) in scene.iter().enumerate() {
-                one.respond_one(j, *h);
+    fn another_leader_is_as_good_as_a_start() {
+        let driver = Driver { sensitivity: 1.3, ..Driver::default() };
+        let mut one = Following::new(&[driver; 3], CHUNK);
+        one.respond(&[0.0; CHUNK], &OFFSET, true);
+        one.respond_to_another(1, 0.3, 17.0);
+        let mut offset = OFFSET;
+        let mut gap = [0.0; CHUNK];
+        for j in [1, 4, 7] {
+            (offset[j], gap[j]) = (17.0, 0.3);
+        }
+        let mut all = Following::new(&[driver; 3], CHUNK);
+        all.respond(&gap, &offset, true);
+        assert_eq!(one.speeds(), all.speeds(), "images included");
+    }
+
+    /// A whole step at once, for equal drivers and for drivers that differ, is driving first and responding then.
+    #[test]
+    fn a_step_at_once_gives_the_same_bits_as_one_after_the_other() {
+        let mut generator = Generator::new(5, Stream::Start);
+        for differ in [false, true] {
+            for n in [2, 5, CHUNK, 2 * CHUNK + 3] {
+                let padded = n.next_multiple_of(CHUNK);
+                let mut drivers = vec![Driver::default(); n];
+                if differ {
+                    drivers[1].sensitivity = 2.0;
+                }
+                let image = |row: &[f64], j: usize| row[j % n];
+                let offset: Vec<f64> = (0..n).map(|_| 20.0 + generator.uniform()).collect();
+                let offset: Vec<f64> = (0..padded).map(|j| image(&offset, j)).collect();
+                let (mut once, mut twice) =
+                    (Following::new(&drivers, padded), Following::new(&drivers, padded));
+                let mask: Vec<f64> =
+                    (0..padded).map(|j| if j % n == 1 { f64::from_bits(u64::MAX) } else { 0.0 }).collect();
+                let mut old = vec![0.0; padded + CHUNK];
+                for step in 0..200 {
+                    let mut rows = [(); 2].map(|()| {
+                        let row: Vec<f64> = (0..n).map(|_| generator.uniform()).collect();
+                        (0..padded + CHUNK).map(|j| image(&row, j)).collect::<Vec<_>>()
+                    });
+                    if step % 3 == 0 {
+                        rows[1] = rows[0].iter().map(|x| x + 1e-3).collect();
+                    }
+                    let count = if differ { 2 } else { 1 };
+                    let seen = [rows[0].as_slice(), &rows[1]];
+                    let mut new = [old.clone(), old.clone()];
+                    let ahead = [
+                        once.advance_in_order(
+                            &old,
+                            &mut new[0],
+                            &seen[..count],
+                            std::slice::from_ref(&mask),
+                            &offset,
+                            0.1,
+                            step == 0,
+                        ),
+                        twice.drive(&old, 0.1, &mut new[1]),
+                    ];
+                    let gap: Vec<f64> = (0..padded)
+                        .map(|j| {
+                            let row = seen[usize::from(differ && j % n == 1)];
+                            row[j + 1] - row[j]
+                        })
+                        .collect();
+                    twice.respond(&gap, &offset, step == 0);
+                    assert_eq!(ahead[0], ahead[1]);
+                    assert_eq!(new[0], new[1]);
+                    assert_eq!(once.gaps(), twice.gaps());
+                    assert_eq!(once.speeds(), twice.speeds());
+                    assert!((0..padded).all(|j| once.speeds()[j] == once.speeds()[j % n]), "images");
+                    old.clone_from(&new[0]);
+                }
             }
-            assert_eq!(one.speeds(), all.speeds());
         }
     }
 }

@@ -11,6 +11,8 @@ use crate::vector::CHUNK;
 pub struct History {
     data: Vec<f64>,
     vehicles: usize,
+    /// The vehicle whose image comes after the last whole chunk.
+    closing: usize,
     /// Numbers in a row, padding included.
     width: usize,
     /// Rows kept.
@@ -22,10 +24,11 @@ pub struct History {
 impl History {
     /// All displacements 0, with room to look back `steps` steps, and one step more in a step in which that grows.
     pub fn new(vehicles: usize, steps: usize) -> Self {
-        // One more than the vehicles, and one more than a whole number of chunks: see `close`.
+        // One more than a whole number of chunks: see `close`.
         let width = padded(vehicles) + CHUNK;
         let rows = rows_for(steps);
-        Self { data: vec![0.0; width * rows], vehicles, width, rows, head: 0 }
+        let closing = padded(vehicles) % vehicles;
+        Self { data: vec![0.0; width * rows], vehicles, closing, width, rows, head: 0 }
     }
 
     /// The row of `delay` steps ago.
@@ -33,11 +36,6 @@ impl History {
     pub fn seen(&self, delay: usize) -> &[f64] {
         let start = self.row_start(delay);
         &self.data[start..start + self.width]
-    }
-
-    /// All rows one after the other, and where: the present row, the number of rows, the numbers in each.
-    pub(crate) fn rows(&self) -> (&[f64], [u32; 3]) {
-        (&self.data, [self.head as u32, self.rows as u32, self.width as u32])
     }
 
     /// The displacement of one vehicle `delay` steps ago.
@@ -55,31 +53,27 @@ impl History {
     /// Displaces a vehicle by so many metres, now.
     pub fn displace(&mut self, vehicle: usize, metres: f64) {
         let start = self.row_start(0);
-        self.data[start + vehicle] += metres;
+        for image in images(vehicle, self.vehicles) {
+            self.data[start + image] += metres;
+        }
         self.close();
     }
 
-    /// Repeats the first vehicle's displacement behind the last one's, so that a row reads as closed: on one lane the
+    /// Repeats one more vehicle behind the last whole chunk, so that a row reads as closed: on one lane the
     /// leader of every vehicle is then the next number. To be called when the present row has been written.
     #[inline]
     pub fn close(&mut self) {
         let start = self.row_start(0);
-        self.data[start + self.vehicles] = self.data[start];
+        self.data[start + self.width - CHUNK] = self.data[start + self.closing];
     }
 
-    /// Makes the next row the present one: gives (the row that was present, the one to be written).
+    /// Makes the next row the present one: gives it, to be written, and the others, to be read.
     #[inline]
-    pub fn advance(&mut self) -> (&[f64], &mut [f64]) {
-        let old = self.head;
-        self.head = if old + 1 == self.rows { 0 } else { old + 1 };
-        let w = self.width;
-        if self.head > old {
-            let (left, right) = self.data.split_at_mut(self.head * w);
-            (&left[old * w..], &mut right[..w])
-        } else {
-            let (left, right) = self.data.split_at_mut(old * w);
-            (&right[..w], &mut left[..w])
-        }
+    pub fn advance(&mut self) -> (&mut [f64], Past<'_>) {
+        self.head = if self.head + 1 == self.rows { 0 } else { self.head + 1 };
+        let (before, rest) = self.data.split_at_mut(self.head * self.width);
+        let (row, after) = rest.split_at_mut(self.width);
+        (row, Past { before, after, width: self.width })
     }
 
     /// How far back it can look, in steps.
@@ -116,6 +110,32 @@ impl History {
     }
 }
 
+/// The rows of a [`History`] but the present one.
+#[derive(Clone, Copy, Debug)]
+pub struct Past<'a> {
+    before: &'a [f64],
+    after: &'a [f64],
+    width: usize,
+}
+
+impl<'a> Past<'a> {
+    /// The row of `delay` ≥ 1 steps ago.
+    #[inline]
+    pub fn seen(self, delay: usize) -> &'a [f64] {
+        let back = delay * self.width;
+        match self.before.len().checked_sub(back) {
+            Some(start) => &self.before[start..][..self.width],
+            None => &self.after[self.after.len() - (back - self.before.len())..][..self.width],
+        }
+    }
+}
+
+/// Where a vehicle stands in padded arrays: the padding repeats the first vehicles, so that whatever is done to all
+/// vehicles, chunk by chunk, is done to the images as to their originals and nothing that is computed from them differs.
+pub(crate) fn images(vehicle: usize, vehicles: usize) -> impl Iterator<Item = usize> {
+    (vehicle..padded(vehicles)).step_by(vehicles)
+}
+
 /// Vehicles padded to whole chunks.
 pub(crate) fn padded(vehicles: usize) -> usize {
     vehicles.next_multiple_of(CHUNK)
@@ -133,7 +153,7 @@ mod tests {
 
     /// Row i holds the value i throughout.
     fn advanced(history: &mut History, value: f64) {
-        history.advance().1.fill(value);
+        history.advance().0.fill(value);
     }
 
     #[test]

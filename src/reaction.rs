@@ -4,7 +4,7 @@
 //! step per step towards the target and falls to it at once: so it never looks further back than what
 //! was seen.
 
-use crate::history::padded;
+use crate::history::{images, padded};
 
 /// Delays of all drivers, in steps.
 #[derive(Clone, Debug)]
@@ -12,28 +12,39 @@ pub struct Delays {
     target: Vec<u32>,
     /// What the delay may be at most now: one more than it was in the step before.
     cap: Vec<u32>,
-    /// Padded, with delays of 0.
+    /// Padded.
     delay: Vec<u32>,
     /// Every delay has been at its target for a step: nothing changes by itself.
     settled: bool,
-    /// The delay that all drivers have, if they have one.
-    common: Option<u32>,
+    /// The different delays in force, where they are few; else none.
+    few: Vec<usize>,
+    /// For each of them but the first: who has it; see [`Delays::chosen`].
+    chosen: Vec<Vec<f64>>,
 }
+
+/// So many different delays are few.
+pub(crate) const FEW: usize = 4;
+
+/// A number of which every bit is set: a mask.
+const EVERY_BIT: f64 = f64::from_bits(u64::MAX);
 
 impl Delays {
     /// At t = 0, with these targets.
     pub fn new(target: Vec<u32>) -> Self {
         let delay = vec![0; padded(target.len())];
         let cap = vec![0; target.len()];
-        let mut delays = Self { target, cap, delay, settled: false, common: None };
-        delays.find_common();
+        let chosen = vec![vec![0.0; padded(target.len())]; FEW - 1];
+        let mut delays = Self { target, cap, delay, settled: false, few: Vec::with_capacity(FEW), chosen };
+        delays.find_few();
         delays
     }
 
-    /// Gives a driver another target, from the present step on. To be followed by [`Self::find_common`].
+    /// Gives a driver another target, from the present step on. To be followed by [`Self::find_few`].
     pub fn set_target(&mut self, j: usize, target: u32) {
         self.target[j] = target;
-        self.delay[j] = target.min(self.cap[j]);
+        for image in images(j, self.target.len()) {
+            self.delay[image] = target.min(self.cap[j]);
+        }
         self.settled = false;
     }
 
@@ -48,19 +59,49 @@ impl Delays {
             *delay = target.min(*cap);
             self.settled &= *cap > target;
         }
-        self.find_common();
+        let (vehicles, originals) = (self.target.len(), padded(self.target.len()));
+        for image in vehicles..originals {
+            self.delay[image] = self.delay[image - vehicles];
+        }
+        self.find_few();
     }
 
-    /// Finds out whether all drivers have one delay.
-    pub fn find_common(&mut self) {
-        let delays = &self.delay[..self.target.len()];
-        self.common = delays.iter().all(|d| *d == delays[0]).then_some(delays[0]);
+    /// Finds out which delays there are.
+    pub fn find_few(&mut self) {
+        self.few.clear();
+        for &delay in &self.delay[..self.target.len()] {
+            if self.few.contains(&(delay as usize)) {
+                continue;
+            }
+            if self.few.len() == FEW {
+                self.few.clear();
+                return;
+            }
+            self.few.push(delay as usize);
+        }
+        for (chosen, &which) in self.chosen.iter_mut().zip(&self.few[1..]) {
+            for (chosen, &delay) in chosen.iter_mut().zip(&self.delay) {
+                *chosen = if delay as usize == which { EVERY_BIT } else { 0.0 };
+            }
+        }
     }
 
     /// The delay that all drivers have, if they have one.
     #[inline]
     pub fn common(&self) -> Option<usize> {
-        self.common.map(|d| d as usize)
+        if let [delay] = self.few[..] { Some(delay) } else { None }
+    }
+
+    /// The different delays, where there are only a few; else none.
+    #[inline]
+    pub fn few(&self) -> &[usize] {
+        &self.few
+    }
+
+    /// For each of [`Self::few`] but the first a mask over all drivers (padded): all bits set for those who have it.
+    #[inline]
+    pub fn chosen(&self) -> &[Vec<f64>] {
+        &self.chosen
     }
 
     /// The delay in force of a driver.
@@ -97,7 +138,7 @@ mod tests {
                 10 => delays.set_target(0, 2),
                 _ => {}
             }
-            delays.find_common();
+            delays.find_few();
             seen.push(delays.of(0));
         }
         assert_eq!(seen, [0, 1, 2, 3, 3, 4, 5, 6, 1, 1, 2, 2]);

@@ -12,7 +12,7 @@
 //! *Behind* and *ahead* in a lane are links of a circular list. *Beside*: the vehicle next ahead in an
 //! adjacent lane; the one behind that is at most alongside. Cost: O(1) a vehicle and step, plus passes and changes.
 
-use crate::history::padded;
+use crate::history::{images, padded};
 use crate::random::{Generator, Stream};
 use crate::scenario::{Scenario, Start};
 
@@ -152,9 +152,10 @@ impl Ring {
             ring.beside = (0..n).map(|j| [Beside::no_lane(j); 2]).collect();
             ring.watch = vec![f64::NEG_INFINITY; n];
         }
-        // Padding that kernels may read: vehicles that follow themselves.
-        ring.offset.resize(padded(n), length);
-        ring.ahead.extend(n as u32..padded(n) as u32);
+        for image in n..padded(n) {
+            ring.offset.push(ring.offset[image - n]);
+            ring.ahead.push(ring.ahead[image - n]);
+        }
         ring
     }
 
@@ -249,8 +250,8 @@ impl Ring {
         self.start[j] += metres;
         let follower = self.behind(j);
         if follower != j {
-            self.offset[j] -= metres;
-            self.offset[follower] += metres;
+            self.set_offset(j, self.offset[j] - metres);
+            self.set_offset(follower, self.offset[follower] + metres);
         }
     }
 
@@ -525,6 +526,18 @@ impl Ring {
         }
     }
 
+    fn set_ahead(&mut self, j: usize, leader: usize) {
+        for image in images(j, self.lane.len()) {
+            self.ahead[image] = leader as u32;
+        }
+    }
+
+    fn set_offset(&mut self, j: usize, offset: f64) {
+        for image in images(j, self.lane.len()) {
+            self.offset[image] = offset;
+        }
+    }
+
     /// Takes m out of its lane; its leader there, if it was not alone.
     fn leave(&mut self, m: usize, s: &[f64]) -> Option<usize> {
         let (from, leader, follower) = (self.lane(m), self.ahead(m), self.behind(m));
@@ -533,9 +546,9 @@ impl Ring {
             self.member[from] = None;
             return None;
         }
-        self.ahead[follower] = leader as u32;
+        self.set_ahead(follower, leader);
         self.behind[leader] = follower as u32;
-        self.offset[follower] = self.offset_of(leader, follower, s);
+        self.set_offset(follower, self.offset_of(leader, follower, s));
         self.member[from] = Some(leader);
         Some(leader)
     }
@@ -547,10 +560,11 @@ impl Ring {
         self.member[to] = Some(m);
         let front = front.unwrap_or(m);
         let rear = if front == m { m } else { self.behind(front) };
-        (self.ahead[m], self.behind[m]) = (front as u32, rear as u32);
-        (self.behind[front], self.ahead[rear]) = (m as u32, m as u32);
-        self.offset[rear] = self.offset_of(m, rear, s);
-        self.offset[m] = self.offset_of(front, m, s);
+        self.set_ahead(m, front);
+        self.set_ahead(rear, m);
+        (self.behind[m], self.behind[front]) = (rear as u32, m as u32);
+        self.set_offset(rear, self.offset_of(m, rear, s));
+        self.set_offset(m, self.offset_of(front, m, s));
     }
 
     /// The next vehicle ahead of m in the lane on that side, starting from what the vehicle behind m has beside it.

@@ -26,7 +26,7 @@ use crate::frustration::{ExponentialClock, Sampler, compared};
 use crate::history::{History, padded};
 use crate::parameters::quoted;
 use crate::random::{Generator, Stream};
-use crate::reaction::Delays;
+use crate::reaction::{Delays, FEW};
 use crate::ring::{Pass, Ring, Side};
 use crate::scenario::{Scenario, assign, check_min_headway};
 use crate::vector::Width;
@@ -75,8 +75,8 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     history_is_long: bool,
     delays: Delays,
     following: Following,
-    /// Perceived headways in the making.
-    scene: Vec<f64>,
+    /// Gaps in the making.
+    seen: Vec<f64>,
     /// Sum of the nudges since the start, m.
     nudged: Vec<f64>,
     /// Braked vehicles and the step in which they are released.
@@ -125,7 +125,7 @@ impl<S: Sampler> Simulation<S> {
             ring: Ring::new(scenario),
             history: History::new(n, delays.longest_target()),
             history_is_long: false,
-            scene: vec![0.0; padded(n)],
+            seen: vec![0.0; padded(n)],
             nudged: vec![0.0; n],
             braked: Vec::new(),
             frustration: vec![0.0; n],
@@ -236,7 +236,7 @@ impl<S: Sampler> Simulation<S> {
     }
     /// The headway as the driver sees it now, m.
     pub fn perceived_headway(&self, j: usize) -> f64 {
-        self.following.perceived()[j]
+        self.ring.offsets()[j] + self.following.gaps()[j]
     }
     /// φ.
     pub fn frustration(&self, j: usize) -> f64 {
@@ -289,46 +289,60 @@ impl<S: Sampler> Simulation<S> {
                 return;
             }
         }
-        self.forward();
         self.step += 1;
         self.delays.advance();
         if self.history_is_long {
             self.history.look_back(self.delays.longest_target());
             self.history_is_long = false;
         }
-        if self.agenda.last().is_some_and(|&(due, _)| due <= self.step) {
-            self.apply_due_actions();
-        }
-        self.look(self.step.is_multiple_of(REFRESH));
+        self.forward();
     }
 
-    /// Stage 3: positions.
+    /// Stage 3, to the time of the present step.
     fn forward(&mut self) {
-        let (old, new) = self.history.advance();
-        self.odometer += self.following.drive(old, self.scenario.time_step, self.drivers.len(), new);
-        self.history.close();
+        let refresh = self.step.is_multiple_of(REFRESH);
+        let acts = self.agenda.last().is_some_and(|&(due, _)| due <= self.step);
+        let dt = self.scenario.time_step;
+        let offsets = self.ring.offsets();
+        let (new, past) = self.history.advance();
+        let old = past.seen(1);
+        let delays = self.delays.few();
+        // Where what is seen next is there already, positions and speeds come in one go.
+        let at_once = self.ring.is_in_order() && !acts && !delays.is_empty() && !delays.contains(&0);
+        if at_once {
+            let mut seen = [old; FEW];
+            for (row, &delay) in seen.iter_mut().zip(delays) {
+                *row = past.seen(delay);
+            }
+            let seen = &seen[..delays.len()];
+            self.odometer +=
+                self.following.advance_in_order(old, new, seen, self.delays.chosen(), offsets, dt, refresh);
+            self.history.close();
+            self.hold_braked();
+        } else {
+            self.odometer += self.following.drive(old, dt, new);
+            self.history.close();
+            if acts {
+                self.apply_due_actions();
+            }
+            self.look(refresh);
+        }
     }
 
     /// What everyone sees now, and the speeds that follow: the vehicle in front now, both where they were the
     /// driver's delay ago.
     fn look(&mut self, refresh: bool) {
-        let offset = self.ring.offsets();
+        let leaders = self.ring.leaders();
         match self.delays.common() {
-            Some(delay) if self.ring.is_in_order() => {
-                let seen = self.history.seen(delay);
-                self.following.respond_in_order(offset, seen, &mut self.scene, refresh);
-            }
-            common => {
-                let leaders = self.ring.leaders();
-                if let Some(delay) = common {
-                    see_alike(offset, leaders, self.history.seen(delay), &mut self.scene);
-                } else {
-                    let delays = self.delays.all();
-                    self.following.see_apart(offset, leaders, delays, &self.history, &mut self.scene);
-                }
-                self.following.respond(&self.scene, refresh);
-            }
+            Some(delay) => see_alike(leaders, self.history.seen(delay), &mut self.seen),
+            None => see_apart(leaders, self.delays.all(), &self.history, &mut self.seen),
         }
+        self.following.respond(&self.seen, self.ring.offsets(), refresh);
+        self.hold_braked();
+    }
+
+    /// Braked vehicles stand still until they are released.
+    fn hold_braked(&mut self) {
         if !self.braked.is_empty() {
             let step = self.step;
             self.braked.retain(|&(_, released)| released > step);
@@ -383,7 +397,7 @@ impl<S: Sampler> Simulation<S> {
         let (history, delays) = (&self.history, &self.delays);
         let common = delays.common().map(|delay| history.seen(delay));
         let beside = self.ring.all_beside();
-        let own = self.following.perceived();
+        let (offsets, gaps) = (self.ring.offsets(), self.following.gaps());
         for j in vehicles {
             let seen = match common {
                 Some(row) => row,
@@ -391,7 +405,8 @@ impl<S: Sampler> Simulation<S> {
             };
             let [outer, inner] = [beside[j][0].distance(j, seen), beside[j][1].distance(j, seen)];
             let best = if outer > inner { outer } else { inner };
-            let mut frustration = compared(self.frustration[j], own[j], best, self.frustration_step[j]);
+            let mut frustration =
+                compared(self.frustration[j], offsets[j] + gaps[j], best, self.frustration_step[j]);
             for _ in 0..passes {
                 frustration += self.drivers[j].pass_frustration;
             }
@@ -447,8 +462,8 @@ impl<S: Sampler> Simulation<S> {
     /// One vehicle has another leader within this step.
     fn look_again(&mut self, j: usize) {
         let seen = self.history.seen(self.delays.of(j));
-        let scene = self.ring.offsets()[j] + (seen[self.ring.ahead(j)] - seen[j]);
-        self.following.respond_one(j, scene);
+        let gap = seen[self.ring.ahead(j)] - seen[j];
+        self.following.respond_to_another(j, gap, self.ring.offsets()[j]);
         if self.braked.iter().any(|&(braked, _)| braked == j) {
             self.following.set_speed(j, 0.0);
         }
@@ -580,7 +595,7 @@ impl<S: Sampler> Simulation<S> {
     /// What is known of all drivers together.
     fn know_drivers(&mut self) {
         self.following.find_common_law(&self.drivers);
-        self.delays.find_common();
+        self.delays.find_few();
         // Longer at once, shorter with the next step only: another action of this step may bring back what this one
         // took away.
         let longest = self.delays.longest_target();
@@ -593,9 +608,17 @@ impl<S: Sampler> Simulation<S> {
     }
 }
 
-/// Perceived headways of drivers with one delay; `seen` is the row of that delay.
-fn see_alike(offset: &[f64], leaders: &[u32], seen: &[f64], scene: &mut [f64]) {
-    for (j, ((scene, offset), &leader)) in scene.iter_mut().zip(offset).zip(leaders).enumerate() {
-        *scene = offset + (seen[leader as usize] - seen[j]);
+/// Gaps that drivers with one delay see; `seen` is the row of that delay.
+fn see_alike(leaders: &[u32], seen: &[f64], gaps: &mut [f64]) {
+    for (j, (gap, &leader)) in gaps.iter_mut().zip(leaders).enumerate() {
+        *gap = seen[leader as usize] - seen[j];
+    }
+}
+
+/// Gaps that drivers with delays of their own see.
+fn see_apart(leaders: &[u32], delays: &[u32], history: &History, gaps: &mut [f64]) {
+    for (j, ((gap, &leader), &delay)) in gaps.iter_mut().zip(leaders).zip(delays).enumerate() {
+        let seen = history.seen(delay as usize);
+        *gap = seen[leader as usize] - seen[j];
     }
 }

@@ -33,12 +33,12 @@ mod chunk {
 
     impl Chunk {
         #[inline(always)]
-        pub(crate) fn load(slice: &[f64], start: usize) -> Self {
-            Self(slice[start..start + CHUNK].try_into().expect("a chunk has its length"))
+        pub(crate) fn load(from: &[f64; CHUNK]) -> Self {
+            Self(*from)
         }
         #[inline(always)]
-        pub(crate) fn store(self, slice: &mut [f64], start: usize) {
-            slice[start..start + CHUNK].copy_from_slice(&self.0);
+        pub(crate) fn store(self, to: &mut [f64; CHUNK]) {
+            *to = self.0;
         }
         #[inline(always)]
         pub(crate) fn splat(value: f64) -> Self {
@@ -66,6 +66,15 @@ mod chunk {
         #[inline(always)]
         pub(crate) fn most(self, other: Self) -> Self {
             self.zip(other, |a, b| if a < b { b } else { a })
+        }
+        /// `yes` where all bits of the number in `self` are set, `no` where none is.
+        #[inline(always)]
+        pub(crate) fn choose(self, yes: Self, no: Self) -> Self {
+            let one = |j: usize| {
+                let mask = self.0[j].to_bits();
+                f64::from_bits((yes.0[j].to_bits() & mask) | (no.0[j].to_bits() & !mask))
+            };
+            Self(std::array::from_fn(one))
         }
     }
 
@@ -97,7 +106,7 @@ mod chunk {
     use super::CHUNK;
     use core::arch::wasm32::{
         f64x2_abs, f64x2_add, f64x2_le, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sub,
-        i64x2_all_true, v128, v128_and, v128_load, v128_store,
+        i64x2_all_true, v128, v128_and, v128_bitselect, v128_load, v128_store,
     };
 
     /// [`CHUNK`] numbers side by side.
@@ -107,9 +116,9 @@ mod chunk {
     impl Chunk {
         #[inline(always)]
         #[allow(unsafe_code, clippy::cast_ptr_alignment)]
-        pub(crate) fn load(slice: &[f64], start: usize) -> Self {
-            let from = slice[start..start + CHUNK].as_ptr().cast::<v128>();
-            // SAFETY: the slice has CHUNK numbers, which are four vectors; the load needs no alignment.
+        pub(crate) fn load(from: &[f64; CHUNK]) -> Self {
+            let from = from.as_ptr().cast::<v128>();
+            // SAFETY: CHUNK numbers are four vectors; the load needs no alignment.
             unsafe {
                 Self([
                     v128_load(from),
@@ -121,8 +130,8 @@ mod chunk {
         }
         #[inline(always)]
         #[allow(unsafe_code, clippy::cast_ptr_alignment)]
-        pub(crate) fn store(self, slice: &mut [f64], start: usize) {
-            let to = slice[start..start + CHUNK].as_mut_ptr().cast::<v128>();
+        pub(crate) fn store(self, to: &mut [f64; CHUNK]) {
+            let to = to.as_mut_ptr().cast::<v128>();
             let [a, b, c, d] = self.0;
             // SAFETY: as in `load`.
             unsafe {
@@ -159,6 +168,13 @@ mod chunk {
         pub(crate) fn most(self, other: Self) -> Self {
             self.zip(other, |a, b| f64x2_pmax(a, b))
         }
+        /// `yes` where all bits of the number in `self` are set, `no` where none is.
+        #[inline(always)]
+        pub(crate) fn choose(self, yes: Self, no: Self) -> Self {
+            let (mask, a, b) = (self.0, yes.0, no.0);
+            let one = |j: usize| v128_bitselect(a[j], b[j], mask[j]);
+            Self([one(0), one(1), one(2), one(3)])
+        }
     }
 
     impl std::ops::Add for Chunk {
@@ -191,9 +207,37 @@ impl Chunk {
     #[inline(always)]
     pub(crate) fn to_array(self) -> [f64; CHUNK] {
         let mut out = [0.0; CHUNK];
-        self.store(&mut out, 0);
+        self.store(&mut out);
         out
     }
+
+    /// The smallest number.
+    #[inline(always)]
+    pub(crate) fn smallest(self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.to_array();
+        let less = |a: f64, b: f64| if b < a { b } else { a };
+        less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)))
+    }
+
+    /// The largest number.
+    #[inline(always)]
+    pub(crate) fn largest(self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.to_array();
+        let more = |a: f64, b: f64| if b > a { b } else { a };
+        more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)))
+    }
+}
+
+/// The numbers of a slice, chunk by chunk; the rest at its end is left out.
+#[inline(always)]
+pub(crate) fn chunks(slice: &[f64]) -> &[[f64; CHUNK]] {
+    slice.as_chunks().0
+}
+
+/// The same to be written to.
+#[inline(always)]
+pub(crate) fn chunks_mut(slice: &mut [f64]) -> &mut [[f64; CHUNK]] {
+    slice.as_chunks_mut().0
 }
 
 impl Real for Chunk {
