@@ -50,6 +50,17 @@ impl Law {
     }
 }
 
+/// What drivers see who follow one another in order; rows of displacements and arrays padded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scene<'a> {
+    /// Offsets of the leaders, m.
+    pub(crate) offset: &'a [f64],
+    /// Displacements (m) as they were each of a few delays ago.
+    pub(crate) seen: &'a [&'a [f64]],
+    /// Who sees which; see [`Delays::chosen`].
+    pub(crate) chosen: &'a [Vec<f64>],
+}
+
 /// Gaps, shortfalls and speeds of all vehicles; padded to whole chunks.
 #[derive(Clone, Debug)]
 pub struct Following {
@@ -374,19 +385,18 @@ impl Following {
         }
     }
 
-    /// A whole step of `dt` seconds at once, where the leader of j is j + 1 and what is seen is there already: the row
-    /// of each of the few delays, and who sees which; see [`Delays::few`]. Displacements go from `old` to `new`; all
-    /// shortfalls in full where `refresh` says so. Tells how far the fastest has gone ahead of the slowest, m.
+    /// A whole step of `dt` seconds at once, where the leader of j is j + 1 and what is seen is there already.
+    /// Displacements go from `old` to `new`; all shortfalls in full where `refresh` says so. Tells how far the fastest
+    /// has gone ahead of the slowest, m.
     pub(crate) fn advance_in_order(
         &mut self,
         old: &[f64],
         new: &mut [f64],
-        seen: &[&[f64]],
-        chosen: &[Vec<f64>],
-        offset: &[f64],
+        scene: Scene<'_>,
         dt: f64,
         refresh: bool,
     ) -> f64 {
+        let Scene { offset, seen, chosen } = scene;
         let mut extremes = [0.0; 2];
         let (width, State { gap, shortfall, speed }) = (self.width, &mut self.state);
         let extremes_of = &mut extremes;
@@ -576,17 +586,12 @@ mod tests {
                     let count = if differ { 2 } else { 1 };
                     let seen = [rows[0].as_slice(), &rows[1]];
                     let mut new = [old.clone(), old.clone()];
+                    let chosen = std::slice::from_ref(&mask);
+                    let scene = Scene { offset: &offset, seen: &seen[..count], chosen };
+                    let (left, right) = new.split_at_mut(1);
                     let ahead = [
-                        once.advance_in_order(
-                            &old,
-                            &mut new[0],
-                            &seen[..count],
-                            std::slice::from_ref(&mask),
-                            &offset,
-                            0.1,
-                            step == 0,
-                        ),
-                        twice.drive(&old, 0.1, &mut new[1]),
+                        once.advance_in_order(&old, &mut left[0], scene, 0.1, step == 0),
+                        twice.drive(&old, 0.1, &mut right[0]),
                     ];
                     let gap: Vec<f64> = (0..padded)
                         .map(|j| {

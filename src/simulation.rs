@@ -21,7 +21,7 @@
 use crate::action::{Action, Effect};
 use crate::driver::Driver;
 use crate::error::Invalid;
-use crate::following::{Following, REFRESH};
+use crate::following::{Following, REFRESH, Scene};
 use crate::frustration::{ExponentialClock, Sampler, compared};
 use crate::history::{History, padded};
 use crate::parameters::quoted;
@@ -303,7 +303,7 @@ impl<S: Sampler> Simulation<S> {
         let refresh = self.step.is_multiple_of(REFRESH);
         let acts = self.agenda.last().is_some_and(|&(due, _)| due <= self.step);
         let dt = self.scenario.time_step;
-        let offsets = self.ring.offsets();
+        let offset = self.ring.offsets();
         let (new, past) = self.history.advance();
         let old = past.seen(1);
         let delays = self.delays.few();
@@ -314,9 +314,8 @@ impl<S: Sampler> Simulation<S> {
             for (row, &delay) in seen.iter_mut().zip(delays) {
                 *row = past.seen(delay);
             }
-            let seen = &seen[..delays.len()];
-            self.odometer +=
-                self.following.advance_in_order(old, new, seen, self.delays.chosen(), offsets, dt, refresh);
+            let scene = Scene { offset, seen: &seen[..delays.len()], chosen: self.delays.chosen() };
+            self.odometer += self.following.advance_in_order(old, new, scene, dt, refresh);
             self.history.close();
             self.hold_braked();
         } else {
