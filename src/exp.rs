@@ -11,6 +11,8 @@
 //! NaN for NaN. [`exp_within`] holds its argument to ±700 first, which is what the car-following law needs:
 //! e^700 and all above mean "stand still", e^−700 and all below mean "as fast as possible".
 
+use crate::vector::Real;
+
 /// 1/k! for k = 2 … 13.
 #[allow(clippy::excessive_precision)] // the decimal expansions of the quotients, rounded by the compiler
 const COEFFICIENTS: [f64; 12] = [
@@ -37,30 +39,29 @@ const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// Splits x into k (as the low bits of a float near [`ROUNDER`]) and e^r.
 #[inline(always)]
-fn reduced(x: f64) -> (f64, f64) {
-    let shifted = x * std::f64::consts::LOG2_E + ROUNDER;
-    let k = shifted - ROUNDER;
-    let r = (x - k * LN_2_HIGH) - k * LN_2_LOW;
-    let c = &COEFFICIENTS;
+fn reduced<T: Real>(x: T) -> (T, T) {
+    let all = T::all;
+    let shifted = x * all(std::f64::consts::LOG2_E) + all(ROUNDER);
+    let k = shifted - all(ROUNDER);
+    let r = (x - k * all(LN_2_HIGH)) - k * all(LN_2_LOW);
+    let c = |j: usize| all(COEFFICIENTS[j]);
     let r2 = r * r;
     let r4 = r2 * r2;
     // Estrin's scheme: short chains, so that a vector unit stays busy.
-    let low = (c[0] + c[1] * r) + (c[2] + c[3] * r) * r2;
-    let middle = (c[4] + c[5] * r) + (c[6] + c[7] * r) * r2;
-    let high = (c[8] + c[9] * r) + (c[10] + c[11] * r) * r2;
+    let low = (c(0) + c(1) * r) + (c(2) + c(3) * r) * r2;
+    let middle = (c(4) + c(5) * r) + (c(6) + c(7) * r) * r2;
+    let high = (c(8) + c(9) * r) + (c(10) + c(11) * r) * r2;
     let tail = (low + middle * r4) + high * (r4 * r4);
-    (shifted, 1.0 + (r + tail * r2))
+    (shifted, all(1.0) + (r + tail * r2))
 }
 
 /// e^x for −700 ≤ x ≤ 700, of the nearer end outside; branch-free. NaN gives NaN.
 #[inline(always)]
-pub fn exp_within(x: f64) -> f64 {
-    // Comparisons rather than `clamp`: they keep NaN and become plain vector selects.
-    let x = if x > 700.0 { 700.0 } else { x };
-    let x = if x < -700.0 { -700.0 } else { x };
+pub(crate) fn exp_within<T: Real>(x: T) -> T {
+    let x = x.least(T::all(700.0)).most(T::all(-700.0));
     let (shifted, fraction) = reduced(x);
-    // The low bits of `shifted` hold k; moving them into the exponent multiplies by 2^k.
-    f64::from_bits(fraction.to_bits().wrapping_add(shifted.to_bits() << 52))
+    // The low bits of `shifted` hold k.
+    fraction.times_power_of_two(shifted)
 }
 
 /// e^x.

@@ -133,41 +133,42 @@ fn respond(
     law: ChunkLaw,
     refresh: bool,
 ) -> Chunk {
-    let (shortfall, a) = (Chunk::load(shortfall), law.rate * (gap - Chunk::load(old_gap)));
+    let a = law.rate * (gap - Chunk::load(old_gap));
     if refresh || !a.all_within(TINY) {
-        respond_rarely(gap, shortfall, a, Chunk::load(offset), law, refresh)
-    } else {
-        moved_a_little(shortfall, a)
+        let mut next = *shortfall;
+        respond_rarely(
+            a,
+            law.rate * ((Chunk::load(offset) + gap) - law.min_headway),
+            law.max_speed,
+            refresh,
+            &mut next,
+        );
+        return Chunk::load(&next);
     }
+    moved_a_little(Chunk::load(shortfall), a)
 }
 
-/// The same where not all have moved by a little.
-#[inline(always)]
-fn respond_rarely(
-    gap: Chunk,
-    shortfall: Chunk,
-    a: Chunk,
-    offset: Chunk,
-    law: ChunkLaw,
-    refresh: bool,
-) -> Chunk {
-    let (little, much) = (moved_a_little(shortfall, a).to_array(), moved(shortfall, a).to_array());
-    let (a, argument, max_speed) =
-        (a.to_array(), (law.rate * ((offset + gap) - law.min_headway)).to_array(), law.max_speed.to_array());
-    let mut next = [0.0; CHUNK];
-    // False for NaN: a vehicle without a valid shortfall.
-    let small = |a: f64| a.abs() <= SMALL;
-    if refresh || !a.iter().all(|a| small(*a)) {
-        for j in 0..CHUNK {
-            next[j] = max_speed[j] * exp_within(argument[j]);
-        }
+/// The same where not all have moved by a little, from −(λ/V)(h − d) as the exponential's `argument`.
+#[cold]
+#[inline(never)]
+fn respond_rarely(a: Chunk, argument: Chunk, max_speed: Chunk, refresh: bool, shortfall: &mut [f64; CHUNK]) {
+    let full = max_speed * exp_within(argument);
+    if refresh {
+        return full.store(shortfall);
     }
-    for j in 0..CHUNK {
-        if small(a[j]) && !refresh {
-            next[j] = if a[j].abs() <= TINY { little[j] } else { much[j] };
-        }
+    let old = Chunk::load(shortfall);
+    let [little, much, full] = [moved_a_little(old, a), moved(old, a), full].map(Chunk::to_array);
+    for (j, a) in a.to_array().into_iter().enumerate() {
+        // False for NaN: a vehicle without a valid shortfall.
+        let within = |bound: f64| a.abs() <= bound;
+        shortfall[j] = if within(TINY) {
+            little[j]
+        } else if within(SMALL) {
+            much[j]
+        } else {
+            full[j]
+        };
     }
-    Chunk::load(&next)
 }
 
 kernel! {

@@ -14,12 +14,30 @@ pub const CHUNK: usize = 8;
 pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// The same number everywhere.
     fn all(value: f64) -> Self;
+    /// `other` where it is smaller; NaN stays.
+    fn least(self, other: Self) -> Self;
+    /// `other` where it is larger; NaN stays.
+    fn most(self, other: Self) -> Self;
+    /// Times 2^k, for the whole number k in the lowest 12 bits of `exponent`.
+    fn times_power_of_two(self, exponent: Self) -> Self;
 }
 
 impl Real for f64 {
     #[inline(always)]
     fn all(value: f64) -> Self {
         value
+    }
+    #[inline(always)]
+    fn least(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+    #[inline(always)]
+    fn most(self, other: Self) -> Self {
+        if self < other { other } else { self }
+    }
+    #[inline(always)]
+    fn times_power_of_two(self, exponent: Self) -> Self {
+        Self::from_bits(self.to_bits().wrapping_add(exponent.to_bits() << 52))
     }
 }
 
@@ -57,16 +75,6 @@ mod chunk {
             }
             outside == 0
         }
-        /// `other` where it is smaller.
-        #[inline(always)]
-        pub(crate) fn least(self, other: Self) -> Self {
-            self.zip(other, |a, b| if b < a { b } else { a })
-        }
-        /// `other` where it is larger.
-        #[inline(always)]
-        pub(crate) fn most(self, other: Self) -> Self {
-            self.zip(other, |a, b| if a < b { b } else { a })
-        }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]
         pub(crate) fn choose(self, yes: Self, no: Self) -> Self {
@@ -75,6 +83,25 @@ mod chunk {
                 f64::from_bits((yes.0[j].to_bits() & mask) | (no.0[j].to_bits() & !mask))
             };
             Self(std::array::from_fn(one))
+        }
+    }
+
+    impl super::Real for Chunk {
+        #[inline(always)]
+        fn all(value: f64) -> Self {
+            Self::splat(value)
+        }
+        #[inline(always)]
+        fn least(self, other: Self) -> Self {
+            self.zip(other, super::Real::least)
+        }
+        #[inline(always)]
+        fn most(self, other: Self) -> Self {
+            self.zip(other, super::Real::most)
+        }
+        #[inline(always)]
+        fn times_power_of_two(self, exponent: Self) -> Self {
+            self.zip(exponent, super::Real::times_power_of_two)
         }
     }
 
@@ -105,8 +132,8 @@ mod chunk {
 mod chunk {
     use super::CHUNK;
     use core::arch::wasm32::{
-        f64x2_abs, f64x2_add, f64x2_le, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sub,
-        i64x2_all_true, v128, v128_and, v128_bitselect, v128_load, v128_store,
+        f64x2_abs, f64x2_add, f64x2_le, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sub, i64x2_add,
+        i64x2_all_true, i64x2_shl, v128, v128_and, v128_bitselect, v128_load, v128_store,
     };
 
     /// [`CHUNK`] numbers side by side.
@@ -158,22 +185,31 @@ mod chunk {
             let [a, b, c, d] = self.0;
             i64x2_all_true(v128_and(v128_and(within(a), within(b)), v128_and(within(c), within(d))))
         }
-        /// `other` where it is smaller.
-        #[inline(always)]
-        pub(crate) fn least(self, other: Self) -> Self {
-            self.zip(other, |a, b| f64x2_pmin(a, b))
-        }
-        /// `other` where it is larger.
-        #[inline(always)]
-        pub(crate) fn most(self, other: Self) -> Self {
-            self.zip(other, |a, b| f64x2_pmax(a, b))
-        }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]
         pub(crate) fn choose(self, yes: Self, no: Self) -> Self {
             let (mask, a, b) = (self.0, yes.0, no.0);
             let one = |j: usize| v128_bitselect(a[j], b[j], mask[j]);
             Self([one(0), one(1), one(2), one(3)])
+        }
+    }
+
+    impl super::Real for Chunk {
+        #[inline(always)]
+        fn all(value: f64) -> Self {
+            Self::splat(value)
+        }
+        #[inline(always)]
+        fn least(self, other: Self) -> Self {
+            self.zip(other, |a, b| f64x2_pmin(a, b))
+        }
+        #[inline(always)]
+        fn most(self, other: Self) -> Self {
+            self.zip(other, |a, b| f64x2_pmax(a, b))
+        }
+        #[inline(always)]
+        fn times_power_of_two(self, exponent: Self) -> Self {
+            self.zip(exponent, |x, k| i64x2_add(x, i64x2_shl(k, 52)))
         }
     }
 
@@ -215,16 +251,14 @@ impl Chunk {
     #[inline(always)]
     pub(crate) fn smallest(self) -> f64 {
         let [a, b, c, d, e, f, g, h] = self.to_array();
-        let less = |a: f64, b: f64| if b < a { b } else { a };
-        less(less(less(a, b), less(c, d)), less(less(e, f), less(g, h)))
+        a.least(b).least(c.least(d)).least(e.least(f).least(g.least(h)))
     }
 
     /// The largest number.
     #[inline(always)]
     pub(crate) fn largest(self) -> f64 {
         let [a, b, c, d, e, f, g, h] = self.to_array();
-        let more = |a: f64, b: f64| if b > a { b } else { a };
-        more(more(more(a, b), more(c, d)), more(more(e, f), more(g, h)))
+        a.most(b).most(c.most(d)).most(e.most(f).most(g.most(h)))
     }
 }
 
@@ -238,13 +272,6 @@ pub(crate) fn chunks(slice: &[f64]) -> &[[f64; CHUNK]] {
 #[inline(always)]
 pub(crate) fn chunks_mut(slice: &mut [f64]) -> &mut [[f64; CHUNK]] {
     slice.as_chunks_mut().0
-}
-
-impl Real for Chunk {
-    #[inline(always)]
-    fn all(value: f64) -> Self {
-        Self::splat(value)
-    }
 }
 
 /// Width of the vectors that a kernel uses; one that this machine has, since only [`Width::available`] makes wider
