@@ -135,32 +135,34 @@ fn respond(
 ) -> Chunk {
     let a = law.rate * (gap - Chunk::load(old_gap));
     if refresh || !a.all_within(TINY) {
+        let argument = law.rate * ((Chunk::load(offset) + gap) - law.min_headway);
         let mut next = *shortfall;
-        respond_rarely(
-            a,
-            law.rate * ((Chunk::load(offset) + gap) - law.min_headway),
-            law.max_speed,
-            refresh,
-            &mut next,
-        );
+        respond_rarely(&a.to_array(), &argument.to_array(), &law.max_speed.to_array(), refresh, &mut next);
         return Chunk::load(&next);
     }
     moved_a_little(Chunk::load(shortfall), a)
 }
 
-/// The same where not all have moved by a little, from −(λ/V)(h − d) as the exponential's `argument`.
+/// The same where not all have moved by a little, from −(λ/V)(h − d) as the exponential's `argument`. (Through memory:
+/// the rare case must not take registers from the common one.)
 #[cold]
 #[inline(never)]
-fn respond_rarely(a: Chunk, argument: Chunk, max_speed: Chunk, refresh: bool, shortfall: &mut [f64; CHUNK]) {
-    let full = max_speed * exp_within(argument);
+fn respond_rarely(
+    a: &[f64; CHUNK],
+    argument: &[f64; CHUNK],
+    max_speed: &[f64; CHUNK],
+    refresh: bool,
+    shortfall: &mut [f64; CHUNK],
+) {
+    let full = Chunk::load(max_speed) * exp_within(Chunk::load(argument));
     if refresh {
         return full.store(shortfall);
     }
-    let old = Chunk::load(shortfall);
-    let [little, much, full] = [moved_a_little(old, a), moved(old, a), full].map(Chunk::to_array);
-    for (j, a) in a.to_array().into_iter().enumerate() {
+    let (old, moves) = (Chunk::load(shortfall), Chunk::load(a));
+    let [little, much, full] = [moved_a_little(old, moves), moved(old, moves), full].map(Chunk::to_array);
+    for j in 0..CHUNK {
         // False for NaN: a vehicle without a valid shortfall.
-        let within = |bound: f64| a.abs() <= bound;
+        let within = |bound: f64| a[j].abs() <= bound;
         shortfall[j] = if within(TINY) {
             little[j]
         } else if within(SMALL) {

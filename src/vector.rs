@@ -170,7 +170,9 @@ mod chunk {
         }
         #[inline(always)]
         pub(crate) fn splat(value: f64) -> Self {
-            Self([f64x2_splat(value); CHUNK / 2])
+            // Built for size, `[v; 4]` would be a loop through memory.
+            let v = f64x2_splat(value);
+            Self([v, v, v, v])
         }
         #[inline(always)]
         fn zip(self, other: Self, f: impl Fn(v128, v128) -> v128) -> Self {
