@@ -22,15 +22,15 @@ use crate::exp::exp_within;
 use crate::history::images;
 #[cfg(doc)]
 use crate::reaction::Delays;
-use crate::vector::{CHUNK, Chunk, Real, Width, chunks, chunks_mut, kernel};
+use crate::vector::{CHUNK, Chunk, Extremes, Real, Width, chunks, chunks_mut, kernel};
 
 /// Steps between full evaluations of all shortfalls.
 pub const REFRESH: u64 = 64;
 
-/// Largest |a| that the polynomial of degree 4 serves.
-const TINY: f64 = 1.0 / 1024.0;
-/// Largest |a| that the polynomial of degree 6 serves.
-const SMALL: f64 = 1.0 / 64.0;
+/// Largest a² that the polynomial of degree 4 serves.
+const TINY: f64 = 1.0 / (1024.0 * 1024.0);
+/// Largest a² that the polynomial of degree 6 serves.
+const SMALL: f64 = 1.0 / (64.0 * 64.0);
 
 /// V, −λ/V and d of a vehicle's driver.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,7 @@ struct Laws {
     min_headway: Vec<f64>,
 }
 
-/// A new shortfall from the old one, where |a| ≤ [`TINY`].
+/// A new shortfall from the old one, where a² ≤ [`TINY`].
 #[inline(always)]
 fn moved_a_little<T: Real>(shortfall: T, a: T) -> T {
     let c = T::all;
@@ -95,7 +95,7 @@ fn moved_a_little<T: Real>(shortfall: T, a: T) -> T {
     shortfall * ((c(1.0) + a) + high * a2)
 }
 
-/// A new shortfall from the old one, where |a| ≤ [`SMALL`].
+/// A new shortfall from the old one, where a² ≤ [`SMALL`].
 #[inline(always)]
 fn moved<T: Real>(shortfall: T, a: T) -> T {
     // Taylor's polynomial, Estrin's scheme: short chains, so that a vector unit stays busy.
@@ -134,7 +134,7 @@ fn respond(
     refresh: bool,
 ) -> Chunk {
     let a = law.rate * (gap - Chunk::load(old_gap));
-    if refresh || !a.all_within(TINY) {
+    if refresh || !(a * a).surely_within(TINY) {
         let argument = law.rate * ((Chunk::load(offset) + gap) - law.min_headway);
         let mut next = *shortfall;
         respond_rarely(&a.to_array(), &argument.to_array(), &law.max_speed.to_array(), refresh, &mut next);
@@ -162,7 +162,7 @@ fn respond_rarely(
     let [little, much, full] = [moved_a_little(old, moves), moved(old, moves), full].map(Chunk::to_array);
     for j in 0..CHUNK {
         // False for NaN: a vehicle without a valid shortfall.
-        let within = |bound: f64| a[j].abs() <= bound;
+        let within = |bound: f64| a[j] * a[j] <= bound;
         shortfall[j] = if within(TINY) {
             little[j]
         } else if within(SMALL) {
@@ -178,7 +178,7 @@ kernel! {
     /// `seen`, which is not `new`, then speeds. `extremes`: see [`drive`].
     fn advance_alike(
         old: &[f64], seen: &[f64], offset: &[f64], law: Law, dt: f64, refresh: bool,
-        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64], new: &mut [f64], extremes: &mut [f64; 2],
+        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64], new: &mut [f64], extremes: &mut (f64, f64),
     ) {
         let count = speed.len() / CHUNK;
         let (old, new) = (&chunks(old)[..count], &mut chunks_mut(new)[..count]);
@@ -189,7 +189,7 @@ kernel! {
         let speed = &mut chunks_mut(speed)[..count];
         let law = ChunkLaw::common(law);
         let (dt, still) = (Chunk::splat(dt), Chunk::splat(0.0));
-        let mut range = Extremes::of(&speed[0]);
+        let mut range = Extremes::of(Chunk::load(&speed[0]));
         for k in 0..count {
             let v = Chunk::load(&speed[k]);
             range.take(v);
@@ -209,7 +209,7 @@ kernel! {
     /// says who sees which; see [`Delays::few`].
     fn advance_mixed(
         old: &[f64], seen: &[&[f64]], chosen: &[Vec<f64>], offset: &[f64], laws: &Laws, dt: f64, refresh: bool,
-        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64], new: &mut [f64], extremes: &mut [f64; 2],
+        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64], new: &mut [f64], extremes: &mut (f64, f64),
     ) {
         let count = speed.len() / CHUNK;
         let (old, new) = (&chunks(old)[..count], &mut chunks_mut(new)[..count]);
@@ -224,7 +224,7 @@ kernel! {
         let difference = |row: &[f64], k: usize| {
             Chunk::load(&chunks(&row[1..])[k]) - Chunk::load(&chunks(row)[k])
         };
-        let mut range = Extremes::of(&speed[0]);
+        let mut range = Extremes::of(Chunk::load(&speed[0]));
         for k in 0..count {
             let v = Chunk::load(&speed[k]);
             range.take(v);
@@ -249,11 +249,11 @@ kernel! {
 
 kernel! {
     /// Positions: x += v·dt. `extremes` gets the smallest and the largest speed.
-    fn drive(old: &[f64], speed: &[f64], dt: f64, new: &mut [f64], extremes: &mut [f64; 2]) {
+    fn drive(old: &[f64], speed: &[f64], dt: f64, new: &mut [f64], extremes: &mut (f64, f64)) {
         let count = speed.len() / CHUNK;
         let (old, new, speed) = (&chunks(old)[..count], &mut chunks_mut(new)[..count], &chunks(speed)[..count]);
         let dt = Chunk::splat(dt);
-        let mut range = Extremes::of(&speed[0]);
+        let mut range = Extremes::of(Chunk::load(&speed[0]));
         for k in 0..count {
             let v = Chunk::load(&speed[k]);
             range.take(v);
@@ -290,31 +290,6 @@ kernel! {
             next.store(&mut shortfall[k]);
             still.most(law.max_speed - next).store(&mut speed[k]);
         }
-    }
-}
-
-/// The smallest and the largest of the speeds so far, lane by lane of a chunk; the outcome does not depend on the order.
-#[derive(Clone, Copy)]
-struct Extremes {
-    least: Chunk,
-    most: Chunk,
-}
-
-impl Extremes {
-    #[inline(always)]
-    fn of(speed: &[f64; CHUNK]) -> Self {
-        let v = Chunk::load(speed);
-        Self { least: v, most: v }
-    }
-
-    #[inline(always)]
-    fn take(&mut self, v: Chunk) {
-        (self.least, self.most) = (self.least.least(v), self.most.most(v));
-    }
-
-    #[inline(always)]
-    fn reduced(self) -> [f64; 2] {
-        [self.least.smallest(), self.most.largest()]
     }
 }
 
@@ -400,7 +375,7 @@ impl Following {
         refresh: bool,
     ) -> f64 {
         let Scene { offset, seen, chosen } = scene;
-        let mut extremes = [0.0; 2];
+        let mut extremes = (0.0, 0.0);
         let (width, State { gap, shortfall, speed }) = (self.width, &mut self.state);
         let extremes_of = &mut extremes;
         match (self.common, seen) {
@@ -436,14 +411,14 @@ impl Following {
                 extremes_of,
             ),
         }
-        (extremes[1] - extremes[0]) * dt
+        (extremes.1 - extremes.0) * dt
     }
 
     /// New displacements after a step of `dt` seconds; how far the fastest has gone ahead of the slowest, m.
     pub fn drive(&self, old: &[f64], dt: f64, new: &mut [f64]) -> f64 {
-        let mut extremes = [0.0; 2];
+        let mut extremes = (0.0, 0.0);
         drive(self.width, old, &self.state.speed, dt, new, &mut extremes);
-        (extremes[1] - extremes[0]) * dt
+        (extremes.1 - extremes.0) * dt
     }
 
     /// New speeds for the gaps `now` (m, padded) to leaders at `offset`; all shortfalls in full where `refresh` says so.
@@ -517,8 +492,9 @@ mod tests {
         for k in -10_000..=10_000 {
             let a = f64::from(k) * 1e-4;
             let error = |moved: f64, a: f64| (moved / exp_within(a) - 1.0).abs();
-            assert!(error(moved_a_little(1.0, a * TINY), a * TINY) < 5e-16, "a = {}", a * TINY);
-            assert!(error(moved(1.0, a * SMALL), a * SMALL) < 5e-16, "a = {}", a * SMALL);
+            let (little, much) = (a * TINY.sqrt(), a * SMALL.sqrt());
+            assert!(error(moved_a_little(1.0, little), little) < 5e-16, "a = {little}");
+            assert!(error(moved(1.0, much), much) < 5e-16, "a = {much}");
         }
     }
 

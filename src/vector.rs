@@ -43,7 +43,7 @@ impl Real for f64 {
 
 #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
 mod chunk {
-    use super::CHUNK;
+    use super::{CHUNK, Real};
 
     /// [`CHUNK`] numbers side by side.
     #[derive(Clone, Copy)]
@@ -66,14 +66,14 @@ mod chunk {
         pub(crate) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
             Self(std::array::from_fn(|j| f(self.0[j], other.0[j])))
         }
-        /// Whether |x| ≤ `bound` for all; false where one is NaN.
+        /// Only if 0 ≤ x ≤ `bound` for all x, which are not negative; it may say no where some come near.
         #[inline(always)]
-        pub(crate) fn all_within(self, bound: f64) -> bool {
-            let mut outside = 0_u64;
+        pub(crate) fn surely_within(self, bound: f64) -> bool {
+            let mut within = true;
             for x in self.0 {
-                outside |= u64::from(x.is_nan() || x.abs() > bound);
+                within &= x <= bound;
             }
-            outside == 0
+            within
         }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]
@@ -86,22 +86,49 @@ mod chunk {
         }
     }
 
-    impl super::Real for Chunk {
+    /// The smallest and the largest number of all chunks taken so far; it does not depend on their order.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Extremes {
+        least: Chunk,
+        most: Chunk,
+    }
+
+    impl Extremes {
+        #[inline(always)]
+        pub(crate) fn of(chunk: Chunk) -> Self {
+            Self { least: chunk, most: chunk }
+        }
+        #[inline(always)]
+        pub(crate) fn take(&mut self, chunk: Chunk) {
+            (self.least, self.most) = (self.least.least(chunk), self.most.most(chunk));
+        }
+        /// (smallest, largest)
+        #[inline(always)]
+        pub(crate) fn reduced(self) -> (f64, f64) {
+            let ([a, b, c, d, e, f, g, h], [p, q, r, s, t, u, v, w]) = (self.least.0, self.most.0);
+            (
+                a.least(b).least(c.least(d)).least(e.least(f).least(g.least(h))),
+                p.most(q).most(r.most(s)).most(t.most(u).most(v.most(w))),
+            )
+        }
+    }
+
+    impl Real for Chunk {
         #[inline(always)]
         fn all(value: f64) -> Self {
             Self::splat(value)
         }
         #[inline(always)]
         fn least(self, other: Self) -> Self {
-            self.zip(other, super::Real::least)
+            self.zip(other, Real::least)
         }
         #[inline(always)]
         fn most(self, other: Self) -> Self {
-            self.zip(other, super::Real::most)
+            self.zip(other, Real::most)
         }
         #[inline(always)]
         fn times_power_of_two(self, exponent: Self) -> Self {
-            self.zip(exponent, super::Real::times_power_of_two)
+            self.zip(exponent, Real::times_power_of_two)
         }
     }
 
@@ -130,10 +157,10 @@ mod chunk {
 
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 mod chunk {
-    use super::CHUNK;
+    use super::{CHUNK, Real};
     use core::arch::wasm32::{
-        f64x2_abs, f64x2_add, f64x2_le, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sub, i64x2_add,
-        i64x2_all_true, i64x2_shl, v128, v128_and, v128_bitselect, v128_load, v128_store,
+        f64x2_add, f64x2_extract_lane, f64x2_le, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sub,
+        i64x2_add, i64x2_all_true, i64x2_shl, v128, v128_bitselect, v128_load, v128_store,
     };
 
     /// [`CHUNK`] numbers side by side.
@@ -179,13 +206,13 @@ mod chunk {
             let (a, b) = (self.0, other.0);
             Self([f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])])
         }
-        /// Whether |x| ≤ `bound` for all; false where one is NaN.
+        /// Only if 0 ≤ x ≤ `bound` for all x, which are not negative; it may say no where some come near.
         #[inline(always)]
-        pub(crate) fn all_within(self, bound: f64) -> bool {
-            let bound = f64x2_splat(bound);
-            let within = |x| f64x2_le(f64x2_abs(x), bound);
+        pub(crate) fn surely_within(self, bound: f64) -> bool {
+            // A rounded sum is not smaller than any of its terms, and NaN where one is.
             let [a, b, c, d] = self.0;
-            i64x2_all_true(v128_and(v128_and(within(a), within(b)), v128_and(within(c), within(d))))
+            let sum = f64x2_add(f64x2_add(a, b), f64x2_add(c, d));
+            i64x2_all_true(f64x2_le(sum, f64x2_splat(bound)))
         }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]
@@ -196,7 +223,39 @@ mod chunk {
         }
     }
 
-    impl super::Real for Chunk {
+    /// The smallest and the largest number of all chunks taken so far; it does not depend on their order. (In two
+    /// vectors, since there are only sixteen registers.)
+    #[derive(Clone, Copy)]
+    pub(crate) struct Extremes {
+        least: v128,
+        most: v128,
+    }
+
+    impl Extremes {
+        #[inline(always)]
+        pub(crate) fn of(chunk: Chunk) -> Self {
+            let mut extremes = Self { least: chunk.0[0], most: chunk.0[0] };
+            extremes.take(chunk);
+            extremes
+        }
+        #[inline(always)]
+        pub(crate) fn take(&mut self, chunk: Chunk) {
+            let [a, b, c, d] = chunk.0;
+            self.least = f64x2_pmin(self.least, f64x2_pmin(f64x2_pmin(a, b), f64x2_pmin(c, d)));
+            self.most = f64x2_pmax(self.most, f64x2_pmax(f64x2_pmax(a, b), f64x2_pmax(c, d)));
+        }
+        /// (smallest, largest)
+        #[inline(always)]
+        pub(crate) fn reduced(self) -> (f64, f64) {
+            let (least, most) = (self.least, self.most);
+            (
+                f64x2_extract_lane::<0>(least).least(f64x2_extract_lane::<1>(least)),
+                f64x2_extract_lane::<0>(most).most(f64x2_extract_lane::<1>(most)),
+            )
+        }
+    }
+
+    impl Real for Chunk {
         #[inline(always)]
         fn all(value: f64) -> Self {
             Self::splat(value)
@@ -238,7 +297,7 @@ mod chunk {
     }
 }
 
-pub(crate) use chunk::Chunk;
+pub(crate) use chunk::{Chunk, Extremes};
 
 impl Chunk {
     /// The numbers, one by one.
@@ -247,20 +306,6 @@ impl Chunk {
         let mut out = [0.0; CHUNK];
         self.store(&mut out);
         out
-    }
-
-    /// The smallest number.
-    #[inline(always)]
-    pub(crate) fn smallest(self) -> f64 {
-        let [a, b, c, d, e, f, g, h] = self.to_array();
-        a.least(b).least(c.least(d)).least(e.least(f).least(g.least(h)))
-    }
-
-    /// The largest number.
-    #[inline(always)]
-    pub(crate) fn largest(self) -> f64 {
-        let [a, b, c, d, e, f, g, h] = self.to_array();
-        a.most(b).most(c.most(d)).most(e.most(f).most(g.most(h)))
     }
 }
 
