@@ -121,11 +121,17 @@ export const en = {
 
   speeds: {
     title: 'Speeds',
-    note: (v: number): string => `m/s · dashed: v∞ = ${exactly(v, 2)}`,
+    note: (v: number): string => `dashed: v∞ = ${unit(exactly(v, 2), 'm/s')}`,
+    unit: 'm/s',
     car: (n: number): string => `car ${n}`,
     equilibrium: 'v∞',
-    time: 'time (s)',
     chart: 'Speeds of some cars over time.',
+  },
+
+  chart: {
+    kind: 'chart',
+    hint: 'Arrow keys read values.',
+    time: (t: string): string => `t = ${t}`,
   },
 
   transport: {
@@ -186,11 +192,13 @@ export const en = {
   lanes: {
     imbalance: 'ΔN, fullest minus emptiest lane',
     flow: (window: number): string => `flow at L/2 over ${unit(fixed(window, 2), 's')} (veh/h)`,
+    symbol: 'ΔN',
+    flowName: 'flow',
     one: 'One lane: ΔN is 0.',
     counts: (counts: readonly number[]): string => counts.map((n, k) => `lane ${k + 1}: ${n}`).join(' · '),
     changes: (n: number): string => (n === 1 ? '1 lane change so far' : `${n} lane changes so far`),
     imbalanceChart: 'Difference between the fullest and the emptiest lane over time.',
-    flowChart: 'Flow over time.',
+    flowChart: 'Flow over time, vehicles per hour.',
   },
 
   car: {
