@@ -55,38 +55,36 @@ export function trace(
 ): void {
   // The column of half a pixel that is being gathered; none where the line begins anew.
   let column = Number.NaN
-  let [px, low, high, last] = [0, 0, 0, 0]
-  const end = () => {
-    if (low === high) return
-    c.lineTo(px, low)
-    c.lineTo(px, high)
-    c.lineTo(px, last)
-  }
-  for (let k = Math.max(0, first); k < time.length; k++) {
+  let px = 0
+  let low = 0
+  let high = 0
+  let last = 0
+  // One row more than there are, so that the last column is drawn, too.
+  for (let k = Math.max(0, first); k <= time.length; k++) {
     const value = values[k] ?? Number.NaN
-    if (Number.isNaN(value)) {
-      end()
-      column = Number.NaN
-      low = high
-      continue
-    }
-    const [at, py] = [x(time[k]!), y(value)]
+    const at = Number.isNaN(value) ? Number.NaN : x(time[k]!)
+    const py = y(value)
     const own = Math.round(2 * at)
     if (own === column) {
-      low = Math.min(low, py)
-      high = Math.max(high, py)
+      if (py < low) low = py
+      if (py > high) high = py
       last = py
       continue
     }
-    end()
+    if (low < high) {
+      c.lineTo(px, low)
+      c.lineTo(px, high)
+      c.lineTo(px, last)
+    }
     // From a little to the left, so that a value between two gaps is seen, too.
-    if (Number.isNaN(column)) c.moveTo(at - 0.5, py)
-    c.lineTo(at, py)
+    if (!Number.isNaN(at)) {
+      if (Number.isNaN(column)) c.moveTo(at - 0.5, py)
+      c.lineTo(at, py)
+    }
     column = own
     px = at
     low = high = last = py
   }
-  end()
 }
 
 /** `name`: what stands above the vertical axis, the unit, unless it is told elsewhere; `digits`: decimals that are read. */
