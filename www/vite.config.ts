@@ -12,13 +12,21 @@ const rename: Plugin = {
   },
 }
 
+// Vite wraps every import() in a loader for the styles that belong to it. Here none does, and the loader is larger than
+// what it would save.
+const plainImport: Plugin = {
+  name: 'plain-import',
+  enforce: 'pre',
+  load: id => (id.endsWith('vite/preload-helper.js') ? 'export const __vitePreload = load => load()' : null),
+}
+
 // `vite build` writes the site, `vite build --mode one-file` the page with everything inside.
 export default defineConfig(({ mode }) => {
   const one = mode === 'one-file'
   return {
     base: './',
-    resolve: one ? { alias: [{ find: '../place', replacement: at('src/place.inline.ts') }] } : {},
-    plugins: one ? [viteSingleFile({ removeViteModuleLoader: true }), rename] : [],
+    resolve: one ? { alias: [{ find: /^\.\.\/(place|later)$/, replacement: at('src/$1.inline.ts') }] } : {},
+    plugins: one ? [viteSingleFile(), rename] : [plainImport],
     build: {
       target: 'es2022',
       outDir: '../dist',

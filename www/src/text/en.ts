@@ -14,12 +14,10 @@ export const en = {
   subtitle: 'traffic jams out of nothing',
 
   boot: {
-    starting: 'Starting …',
     failed: (why: string) => `Ringroad cannot start here: ${why}`,
     advice:
       'It needs WebAssembly. A page opened from disk, or shown under a strict security policy, may not load it: open the one-file version, ringroad.html, or ask whoever runs the site to allow ‘wasm-unsafe-eval’.',
     oneFile: 'Open ringroad.html',
-    fallback: 'Workers are not allowed here, so the page itself computes.',
   },
 
   header: {
@@ -31,14 +29,12 @@ export const en = {
     lab: 'Laboratory',
     help: 'Help',
     fullscreen: 'Full screen',
-    theme: 'Light or dark',
     next: 'Try next:',
     close: 'Close',
   },
 
   trouble: {
     title: 'That did not work',
-    rest: 'Everything else was taken.',
     dismiss: 'Dismiss',
   },
 
@@ -184,10 +180,9 @@ export const en = {
     nudgeHint: 'Push it 1 m ahead',
     brake: (n: number): string => `Brake car ${n}`,
     brakeHint: 'Stand still for 3 s (key B)',
-    preview: 'would be',
   },
 
-  tabs: { label: 'More views', lanes: 'Lanes', car: 'Car', actions: 'Actions', stability: 'Stability', flow: 'Flow' },
+  tabs: { label: 'More views', lanes: 'Lanes', car: 'Car', actions: 'Actions', stability: 'Stability' },
 
   lanes: {
     imbalance: 'ΔN, fullest minus emptiest lane',
@@ -221,7 +216,6 @@ export const en = {
     clear: 'Restart without them',
     clearHint: 'Keeps what belongs to t = 0',
     at: (t: string): string => `${t} s`,
-    all: 'all',
     vehicle: (who: string): string => (who === 'all' ? 'all cars' : /^\d+$/.test(who) ? `car ${who}` : `cars ${who}`),
     brake: (s: string): string => `brake for ${s} s`,
     nudge: (m: string): string => `nudge by ${m} m`,
@@ -318,7 +312,6 @@ export const en = {
 
   roots: {
     title: 'Characteristic roots',
-    note: (n: number): string => `${n === 1 ? '1 mode' : `${n} modes`}, s in 1/s`,
     real: 'growth Re s (1/s)',
     imaginary: 'Im s (1/s)',
     dominant: 'leading roots',
