@@ -1,8 +1,18 @@
+import { readFileSync } from 'node:fs'
 import { fileURLToPath } from 'node:url'
 import { defineConfig, type Plugin } from 'vite'
 import { viteSingleFile } from 'vite-plugin-singlefile'
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url))
+
+// What the pages have in common stands in src/parts.
+const parts: Plugin = {
+  name: 'parts',
+  transformIndexHtml: {
+    order: 'pre',
+    handler: html => html.replace(/^ *<!-- part: (\w+) -->\n/gm, (_, name: string) => readFileSync(at(`src/parts/${name}.html`), 'utf8')),
+  },
+}
 
 const rename: Plugin = {
   name: 'one-file-name',
@@ -26,7 +36,7 @@ export default defineConfig(({ mode }) => {
   return {
     base: './',
     resolve: one ? { alias: [{ find: /^\.\.\/(place|later)$/, replacement: at('src/$1.inline.ts') }] } : {},
-    plugins: one ? [viteSingleFile(), rename] : [plainImport],
+    plugins: one ? [parts, viteSingleFile(), rename] : [parts, plainImport],
     build: {
       target: 'es2022',
       outDir: '../dist',

@@ -71,8 +71,8 @@ export function axes(c: CanvasRenderingContext2D, f: Frame, x: readonly Tick[], 
     last = at
   }
   c.fillStyle = style('--ink')
-  c.textBaseline = 'top'
-  c.fillText(names.x, f.right, f.bottom + (f.flat ? 4 : 20))
+  c.textBaseline = f.flat ? 'top' : 'bottom'
+  c.fillText(names.x, f.right, f.bottom + (f.flat ? 4 : 35))
   c.textAlign = 'left'
   c.textBaseline = 'bottom'
   c.fillText(names.y, f.flat ? 4 : 0, f.top - (f.flat ? 4 : 8))

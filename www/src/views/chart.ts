@@ -141,7 +141,7 @@ export function chart(label: string, name: string, digits: number): Chart {
     // `y` for the labels' places needs the frame, and the frame their width.
     const steps = roundSteps(low, high, Math.max(2, Math.floor((h - 28) / 34)))
     f = flat(w, h, 9 + 7.5 * Math.max(...steps.map(v => fixed(v, 3).length)), name)
-    const times = roundSteps(start, end, Math.max(2, Math.floor((f.right - f.left) / 70)))
+    const times = roundSteps(start, end, Math.max(2, Math.floor((f.right - f.left) / 48)))
     axes(c, f, ticks(times, x), ticks(steps, y), { x: text.map.time, y: name })
     c.save()
     c.beginPath()

@@ -54,7 +54,9 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     visible = window / interval
     canvas.style.width = `${(100 * columns) / visible}%`
     const most = Math.max(3, Math.floor(picture.clientWidth / 85))
-    const times = roundSteps(start, start + window, most).filter(time => time - start < window * 0.93)
+    // Up to where the axis' name stands, px.
+    const free = 1 - 75 / picture.clientWidth
+    const times = roundSteps(start, start + window, most).filter(time => time - start < window * free)
     x.replaceChildren(
       ...times.map(time => el('span', { style: `left:${(100 * (time - start)) / window}%` }, fixed(time, 1))),
       el('span', { class: 'name', style: 'left:auto;right:0;transform:none' }, t.time),
