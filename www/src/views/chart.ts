@@ -13,7 +13,7 @@ export interface Line {
   readonly dash?: readonly number[]
   readonly width?: number
 }
-/** A value for each time, null or NaN where there is none; or one value that always holds. */
+/** What a line shows: a value for each time, null or NaN where there is none; or one value that always holds. */
 export type Values = readonly (number | null)[] | number
 export interface Chart {
   readonly element: HTMLElement
@@ -138,10 +138,10 @@ export function chart(label: string, name: string, digits: number): Chart {
   const redraw = drawing(canvas, (c, w, h) => {
     tip.hidden = cursor === null || time.length === 0
     if (w < 60 || h < 50) return
-    // `y` for the labels' places needs the frame, and the frame their width.
+    // First the numbers: the frame leaves them their width, and they find their places in it.
     const steps = roundSteps(low, high, Math.max(2, Math.floor((h - 28) / 34)))
     f = flat(w, h, 9 + 7.5 * Math.max(...steps.map(v => fixed(v, 3).length)), name)
-    const times = roundSteps(start, end, Math.max(2, Math.floor((f.right - f.left) / 48)))
+    const times = roundSteps(start, end, Math.max(2, Math.floor((f.right - f.left) / 42)))
     axes(c, f, ticks(times, x), ticks(steps, y), { x: text.map.time, y: name })
     c.save()
     c.beginPath()
@@ -232,6 +232,8 @@ export function chart(label: string, name: string, digits: number): Chart {
       lines = next
       const list = keys(lines)
       names = [...list.children] as HTMLElement[]
+      // The values stand in a column of their own.
+      list.style.tabSize = `${44 + 7.5 * Math.max(...lines.map(line => line.label.length))}px`
       tip.replaceChildren(when, list)
       redraw()
     },
