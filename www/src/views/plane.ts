@@ -4,10 +4,9 @@ import { drawing, el, style } from '../dom'
 import type { Session } from '../session'
 import type { Curves, Verdict } from '../shared/protocol'
 import { text } from '../text'
-import { type Frame, axes, frame, ticks, word } from './axes'
+import { type Frame, axes, frame, roundSteps, ticks, word } from './axes'
 import { keys } from './chart'
 import { valueOf } from './controls'
-import { roundSteps } from './map'
 
 const t = text.plane
 /** After the last key, ms: a row of keys is one setting. */
@@ -164,7 +163,6 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
       { label: t.continuous(continuous!), colour: 'var(--accent)', dash: [8, 8] },
       { label: t.newell(newell!), colour: 'var(--soft)', dash: [2, 5] },
     ])
-    ;(names.lastElementChild as HTMLElement).style.setProperty('--dash', 'dotted')
     lines.replaceChildren(names)
   }
   const draw = () => {
