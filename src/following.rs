@@ -364,8 +364,8 @@ impl Following {
     }
 
     /// A whole step of `dt` seconds at once, where the leader of j is j + 1 and what is seen is there already.
-    /// Displacements go from `old` to `new`; all shortfalls in full where `refresh` says so. Tells how far the fastest
-    /// has gone ahead of the slowest, m.
+    /// Displacements go from `old` to `new`; all shortfalls in full where `refresh` says so. Tells how far the slowest
+    /// and the fastest have gone, m.
     pub(crate) fn advance_in_order(
         &mut self,
         old: &[f64],
@@ -373,7 +373,7 @@ impl Following {
         scene: Scene<'_>,
         dt: f64,
         refresh: bool,
-    ) -> f64 {
+    ) -> (f64, f64) {
         let Scene { offset, seen, chosen } = scene;
         let mut extremes = (0.0, 0.0);
         let (width, State { gap, shortfall, speed }) = (self.width, &mut self.state);
@@ -411,14 +411,14 @@ impl Following {
                 extremes_of,
             ),
         }
-        (extremes.1 - extremes.0) * dt
+        (extremes.0 * dt, extremes.1 * dt)
     }
 
-    /// New displacements after a step of `dt` seconds; how far the fastest has gone ahead of the slowest, m.
-    pub fn drive(&self, old: &[f64], dt: f64, new: &mut [f64]) -> f64 {
+    /// New displacements after a step of `dt` seconds; how far the slowest and the fastest have gone, m.
+    pub fn drive(&self, old: &[f64], dt: f64, new: &mut [f64]) -> (f64, f64) {
         let mut extremes = (0.0, 0.0);
         drive(self.width, old, &self.state.speed, dt, new, &mut extremes);
-        (extremes.1 - extremes.0) * dt
+        (extremes.0 * dt, extremes.1 * dt)
     }
 
     /// New speeds for the gaps `now` (m, padded) to leaders at `offset`; all shortfalls in full where `refresh` says so.

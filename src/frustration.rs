@@ -4,7 +4,10 @@
 //! P* = 1 − (1 − P)^dt. How it is drawn is a [`Sampler`]: the literal one draws a number for every vehicle and
 //! step; the [`ExponentialClock`] is equal in distribution and draws only when something may happen.
 
+use crate::history::padded;
 use crate::random::Generator;
+use crate::ring::AllBeside;
+use crate::vector::{CHUNK, Chunk, Real, chunks, chunks_mut, kernel};
 use std::f64::consts::FRAC_2_PI;
 
 /// P(φ), the probability of an attempt within one second.
@@ -40,6 +43,65 @@ pub fn compared(frustration: f64, own: f64, adjacent: f64, change: f64) -> f64 {
     if next > 0.0 { next } else { 0.0 }
 }
 
+/// What drivers with one delay compare in a step in which nobody has passed them; all slices padded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Comparison<'a> {
+    /// Displacements as they are seen, m.
+    pub(crate) seen: &'a [f64],
+    /// The leaders in the adjacent lanes.
+    pub(crate) beside: [&'a AllBeside; 2],
+    /// Offsets of the own leaders, m.
+    pub(crate) offsets: &'a [f64],
+    /// Gaps to them as they are seen, m.
+    pub(crate) gaps: &'a [f64],
+    /// r·dt of every driver.
+    pub(crate) change: &'a [f64],
+}
+
+kernel! {
+    /// Rules 1 and 2 chunk by chunk, from chunk `next` up to chunk `end` or the first in which a clock runs out, to
+    /// which nothing is done: then `next` is that one.
+    pub(crate) fn compare_quietly(
+        comparison: Comparison<'_>, frustration: &mut [f64], clocks: &mut [f64], per_step: f64, next: &mut usize, end: usize,
+    ) {
+        let Comparison { seen, beside: [outer, inner], offsets, gaps, change } = comparison;
+        let (own, offsets, gaps) = (&chunks(seen)[..end], &chunks(offsets)[..end], &chunks(gaps)[..end]);
+        let change = &chunks(change)[..end];
+        let (outer_offsets, inner_offsets) = (&chunks(&outer.offsets)[..end], &chunks(&inner.offsets)[..end]);
+        let outer_vehicles = &outer.vehicles.as_chunks::<CHUNK>().0[..end];
+        let inner_vehicles = &inner.vehicles.as_chunks::<CHUNK>().0[..end];
+        let frustration = &mut chunks_mut(frustration)[..end];
+        let clocks = &mut chunks_mut(clocks)[..end];
+        let (per_step, equal, none) = (Chunk::splat(per_step), Chunk::splat(EQUAL), Chunk::splat(0.0));
+        for k in *next..end {
+            let gathered = |vehicles: &[u32; CHUNK]| {
+                let mut found = [0.0; CHUNK];
+                for j in 0..CHUNK {
+                    found[j] = seen[vehicles[j] as usize];
+                }
+                Chunk::load(&found)
+            };
+            let own = Chunk::load(&own[k]);
+            let outer = Chunk::load(&outer_offsets[k]) + (gathered(&outer_vehicles[k]) - own);
+            let inner = Chunk::load(&inner_offsets[k]) + (gathered(&inner_vehicles[k]) - own);
+            let adjacent = inner.most(outer);
+            let own = Chunk::load(&offsets[k]) + Chunk::load(&gaps[k]);
+            let change = Chunk::load(&change[k]);
+            let up = (own + equal).where_below(adjacent, change);
+            let down = (adjacent + equal).where_below(own, change);
+            let felt = none.most((Chunk::load(&frustration[k]) + up) - down);
+            let left = Chunk::load(&clocks[k]) - felt * per_step;
+            if left.reaches(none) != u8::MAX {
+                *next = k;
+                return;
+            }
+            felt.store(&mut frustration[k]);
+            left.store(&mut clocks[k]);
+        }
+        *next = end.max(*next);
+    }
+}
+
 /// Decides when a driver attempts a lane change.
 pub trait Sampler: Clone {
     /// For so many vehicles and a step of `time_step` seconds; draws from `generator` ever after.
@@ -48,6 +110,11 @@ pub trait Sampler: Clone {
     fn attempts(&mut self, vehicle: usize, frustration: f64) -> bool;
     /// Which of two equally good lanes.
     fn coin(&mut self) -> bool;
+    /// For each vehicle (padded) an amount that must stay above 0, and what a unit of φ takes off it in a step: nobody
+    /// attempts as long as it does. None if this sampler has no such thing.
+    fn clocks(&mut self) -> Option<(&mut [f64], f64)> {
+        None
+    }
 }
 
 /// The rule to the letter: a uniform number for every vehicle and step, compared with P*.
@@ -89,7 +156,8 @@ pub struct ExponentialClock {
 
 impl Sampler for ExponentialClock {
     fn new(vehicles: usize, time_step: f64, mut generator: Generator) -> Self {
-        let left = (0..vehicles).map(|_| generator.exponential()).collect();
+        let mut left: Vec<f64> = (0..vehicles).map(|_| generator.exponential()).collect();
+        left.resize(padded(vehicles), f64::INFINITY);
         Self { left, bound_per_step: BOUND * time_step, time_step, generator }
     }
 
@@ -104,6 +172,10 @@ impl Sampler for ExponentialClock {
 
     fn coin(&mut self) -> bool {
         self.generator.coin()
+    }
+
+    fn clocks(&mut self) -> Option<(&mut [f64], f64)> {
+        Some((&mut self.left, self.bound_per_step))
     }
 }
 

@@ -23,7 +23,7 @@
 //! | [`following`] | perceived headways to speeds, all vehicles at once |
 //! | [`history`], [`reaction`] | what was Δ ago, and how long ago that is for whom |
 //! | [`vector`] | vectors as wide as the machine has them |
-//! | [`ring`] | who is ahead, who passed |
+//! | [`ring`], `watch` | who is ahead, who passed, and who has to be looked at for that |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
 //! | [`measurement`] | what to measure, plain data |
 //! | [`probe`] | one file a measurement |
@@ -64,6 +64,7 @@ pub mod stability;
 pub mod table;
 pub mod vector;
 pub mod verdict;
+mod watch;
 #[cfg(target_arch = "wasm32")]
 pub mod web;
 

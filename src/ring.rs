@@ -15,6 +15,8 @@
 use crate::history::{images, padded};
 use crate::random::{Generator, Stream};
 use crate::scenario::{Scenario, Start};
+use crate::vector::{CHUNK, Width};
+use crate::watch::{NEAR, Odometer, Watch};
 
 /// An adjacent lane: towards lane 1, or away from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +41,7 @@ impl Side {
     }
 }
 
-/// The vehicle next ahead in an adjacent lane, and its offset.
+/// The next vehicle ahead in an adjacent lane, and its offset.
 ///
 /// Where there is none it is the vehicle itself with an infinite offset: +∞ for an empty lane, −∞ for no lane. So
 /// `offset + (s_i − s_j)` needs no case.
@@ -71,6 +73,25 @@ impl Beside {
     }
 }
 
+/// [`Beside`] of all vehicles on one side, padded with vehicles that have no lane there.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct AllBeside {
+    /// The vehicles.
+    pub(crate) vehicles: Vec<u32>,
+    /// Their offsets, m.
+    pub(crate) offsets: Vec<f64>,
+}
+
+impl AllBeside {
+    fn of(vehicles: usize) -> Self {
+        let none = (0..padded(vehicles)).map(Beside::no_lane);
+        Self {
+            vehicles: none.clone().map(|b| b.vehicle).collect(),
+            offsets: none.map(|b| b.offset).collect(),
+        }
+    }
+}
+
 /// Vehicle `passer` has gone past `passed`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Pass {
@@ -89,10 +110,9 @@ pub struct Ring {
     behind: Vec<u32>,
     /// Offset of the leader: its headway at the start, for vehicles that still follow the same one.
     offset: Vec<f64>,
-    beside: Vec<[Beside; 2]>,
-    /// The reading of the odometer before which nobody can come past a vehicle or be passed by it; see
-    /// [`Ring::follow_motion`].
-    watch: Vec<f64>,
+    /// On either side; nothing on one lane.
+    beside: [AllBeside; 2],
+    watch: Watch,
     /// Vehicles per lane.
     count: Vec<usize>,
     /// Some vehicle of each lane that has one.
@@ -114,8 +134,8 @@ impl Ring {
             ahead: Vec::with_capacity(n),
             behind: Vec::with_capacity(n),
             offset: Vec::with_capacity(n),
-            beside: Vec::new(),
-            watch: Vec::new(),
+            beside: [AllBeside::default(), AllBeside::default()],
+            watch: Watch::new(if scenario.lanes > 1 { n } else { 0 }),
             member: vec![None; scenario.lanes],
             count,
             in_order: scenario.lanes == 1,
@@ -149,8 +169,7 @@ impl Ring {
             }
         }
         if scenario.lanes > 1 {
-            ring.beside = (0..n).map(|j| [Beside::no_lane(j); 2]).collect();
-            ring.watch = vec![f64::NEG_INFINITY; n];
+            ring.beside = [AllBeside::of(n), AllBeside::of(n)];
         }
         for image in n..padded(n) {
             ring.offset.push(ring.offset[image - n]);
@@ -227,12 +246,25 @@ impl Ring {
     /// The next vehicle ahead in the adjacent lane on that side.
     #[inline]
     pub(crate) fn beside(&self, j: usize, side: Side) -> Beside {
-        self.beside[j][side as usize]
+        let all = &self.beside[side as usize];
+        Beside { vehicle: all.vehicles[j], offset: all.offsets[j] }
     }
+
+    #[inline]
+    fn set_beside(&mut self, j: usize, side: Side, found: Beside) {
+        let all = &mut self.beside[side as usize];
+        (all.vehicles[j], all.offsets[j]) = (found.vehicle, found.offset);
+    }
+
     /// The next vehicles ahead in the adjacent lanes, towards lane 1 and away from it, of all vehicles.
     #[inline]
-    pub(crate) fn all_beside(&self) -> &[[Beside; 2]] {
-        &self.beside
+    pub(crate) fn all_beside(&self) -> [&AllBeside; 2] {
+        self.beside.each_ref()
+    }
+
+    /// Uses vectors of another width; results stay the same.
+    pub(crate) fn set_width(&mut self, width: Width) {
+        self.watch.set_width(width);
     }
 
     /// The lane on that side of vehicle `j`, if there is one.
@@ -301,7 +333,7 @@ impl Ring {
                 let mut j = first;
                 let mut found = self.search(first, target, s);
                 loop {
-                    self.beside[j][side as usize] = found;
+                    self.set_beside(j, side, found);
                     let next = self.ahead(j);
                     if next == first {
                         break;
@@ -321,7 +353,7 @@ impl Ring {
     /// Has every vehicle looked at closely in the next [`Self::follow_motion`]: after a jump in positions, or where
     /// someone may be faster from now on.
     pub(crate) fn watch_all(&mut self) {
-        self.watch.fill(f64::NEG_INFINITY);
+        self.watch.look_at_all();
     }
 
     /// The next vehicle ahead of j in a lane, by looking at all of them.
@@ -355,38 +387,37 @@ impl Ring {
         self.search(j, lane, s)
     }
 
-    /// Brings beside up to date after the vehicles have moved, and tells who was passed by whom, in order of the
-    /// passed. `odometer` (m) tells how far the fastest vehicle of each step has gone ahead of the slowest, summed over
-    /// the steps: no two come closer by more, so that a vehicle with nobody near need not be looked at for a
-    /// while.
-    pub(crate) fn follow_motion(&mut self, odometer: f64, s: &[f64], passes: &mut Vec<Pass>) {
-        for j in 0..self.watch.len() {
-            if self.watch[j] > odometer {
-                continue;
+    /// Brings beside up to date after the vehicles have moved to the displacements `s`, and tells who was passed by
+    /// whom, in order of the passed.
+    pub(crate) fn follow_motion(&mut self, odometer: Odometer, s: &[f64], passes: &mut Vec<Pass>) {
+        let due = self.watch.take_due(s, odometer);
+        for (k, &marks) in due.iter().enumerate() {
+            let mut marks = marks;
+            while marks != 0 {
+                let j = k * CHUNK + marks.trailing_zeros() as usize;
+                marks &= marks - 1;
+                let mut nearest = [f64::INFINITY; 2];
+                for side in Side::BOTH {
+                    let pass = |i: usize| passes.push(Pass { passer: i as u32, passed: j as u32 });
+                    let Some((found, [ahead, behind])) = self.look_beside(j, side, s, pass) else { continue };
+                    self.set_beside(j, side, found);
+                    nearest = [nearest[0].min(ahead), nearest[1].min(behind)];
+                }
+                self.watch.looked_at(j, s[j], odometer, nearest);
             }
-            let nearest = Side::BOTH.map(|side| self.follow_side(j, side, s, passes));
-            // The factor and `NEAR` leave room for rounding.
-            self.watch[j] = odometer + 0.999 * (nearest[0].min(nearest[1]) - NEAR);
         }
+        self.watch.give_back(due);
     }
 
-    /// [`Self::follow_motion`] for one vehicle and side; the distance to the nearest vehicle there, ahead or behind.
-    fn follow_side(&mut self, j: usize, side: Side, s: &[f64], passes: &mut Vec<Pass>) -> f64 {
-        let pass = |i: usize| passes.push(Pass { passer: i as u32, passed: j as u32 });
-        let Some((found, nearest)) = self.look_beside(j, side, s, pass) else { return f64::INFINITY };
-        self.beside[j][side as usize] = found;
-        nearest
-    }
-
-    /// The next vehicle ahead in the adjacent lane at the displacements `s`, and the distance to the nearest vehicle
-    /// there, ahead or behind. Starts from what was known last, and tells who has come past j since then.
+    /// The next vehicle ahead in the adjacent lane at the displacements `s`, and how far the nearest vehicles there are,
+    /// ahead and behind, m. Starts from what was known last, and tells who has come past j since then.
     fn look_beside(
         &self,
         j: usize,
         side: Side,
         s: &[f64],
         mut pass: impl FnMut(usize),
-    ) -> Option<(Beside, f64)> {
+    ) -> Option<(Beside, [f64; 2])> {
         let mut found = self.beside(j, side);
         let mut i = found.vehicle()?;
         let mut distance = found.distance(j, s);
@@ -401,13 +432,13 @@ impl Ring {
             let follower = self.behind(i);
             let about = distance - self.headway(follower, s);
             if about <= -NEAR {
-                return Some((found, distance.min(-about)));
+                return Some((found, [distance, -about]));
             }
             // The one behind i was at most alongside; now it is looked at exactly.
             let seen = Beside { vehicle: follower as u32, offset: self.offset_of(follower, j, s) };
             let more_laps = ((about - seen.distance(j, s)) / self.length).round();
             if more_laps < 0.0 {
-                return Some((found, 0.0));
+                return Some((found, [0.0; 2]));
             }
             // Once round, everyone there has come past.
             if walked < self.count[self.lane(follower)] {
@@ -422,7 +453,7 @@ impl Ring {
     /// The next vehicle ahead in the adjacent lane on that side, wherever the vehicles have moved since the last
     /// [`Self::follow_motion`]; none in an empty lane or where there is no lane.
     pub(crate) fn adjacent(&self, j: usize, side: Side, s: &[f64]) -> Option<usize> {
-        if self.beside.is_empty() {
+        if self.in_order {
             return None;
         }
         self.look_beside(j, side, s, |_| {}).map(|(found, _)| found.vehicle as usize)
@@ -443,12 +474,13 @@ impl Ring {
         self.announce_leaving(m, s);
         let leader = self.leave(m, s);
         self.enter(m, to, front, s);
-        self.beside[m][side.opposite() as usize] = match leader {
+        let left = match leader {
             Some(i) => Beside { vehicle: i as u32, offset: self.offset_of(i, m, s) },
             None => Beside::empty_lane(m),
         };
-        self.beside[m][side as usize] = self.find_in_far_lane(m, side, s);
-        self.watch[m] = f64::NEG_INFINITY;
+        self.set_beside(m, side.opposite(), left);
+        self.set_beside(m, side, self.find_in_far_lane(m, side, s));
+        self.watch.look_at(m);
         for listeners in Side::BOTH {
             self.announce_arrival(m, listeners, s);
         }
@@ -468,11 +500,12 @@ impl Ring {
                     }
                     break;
                 }
-                self.beside[j][toward as usize] = if leader == m {
+                let found = if leader == m {
                     Beside::empty_lane(j)
                 } else {
                     Beside { vehicle: leader as u32, offset: self.offset_of(leader, j, s) }
                 };
+                self.set_beside(j, toward, found);
             }
         }
     }
@@ -486,20 +519,20 @@ impl Ring {
             let arrived = Beside { vehicle: m as u32, offset: self.offset_of(m, j, s) };
             if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
                 if walk.may_be_alongside() {
-                    self.watch[j] = f64::NEG_INFINITY;
+                    self.watch.look_at(j);
                     continue;
                 }
                 break;
             }
-            self.beside[j][toward as usize] = arrived;
-            self.watch[j] = f64::NEG_INFINITY;
+            self.set_beside(j, toward, arrived);
+            self.watch.look_at(j);
         }
         let Some(mut j) = self.beside(m, side).vehicle() else { return };
         for _ in 0..self.count[self.lane(j)] {
             if self.beside(j, toward).vehicle() != Some(self.ahead(m)) {
                 break;
             }
-            self.watch[j] = f64::NEG_INFINITY;
+            self.watch.look_at(j);
             j = self.ahead(j);
         }
     }
@@ -604,7 +637,3 @@ impl BackWalk {
         Some(j)
     }
 }
-
-/// Distance (m) under which rounding might hide a pass, so that it is looked at exactly; far above the rounding of
-/// positions, far below a vehicle's length.
-const NEAR: f64 = 1e-3;

@@ -22,14 +22,15 @@ use crate::action::{Action, Effect};
 use crate::driver::Driver;
 use crate::error::Invalid;
 use crate::following::{Following, REFRESH, Scene};
-use crate::frustration::{ExponentialClock, Sampler, compared};
+use crate::frustration::{Comparison, ExponentialClock, Sampler, compare_quietly, compared};
 use crate::history::{History, padded};
 use crate::parameters::quoted;
 use crate::random::{Generator, Stream};
 use crate::reaction::{Delays, FEW};
 use crate::ring::{Pass, Ring, Side};
 use crate::scenario::{Scenario, assign, check_min_headway};
-use crate::vector::Width;
+use crate::vector::{CHUNK, Width};
+use crate::watch::Odometer;
 use std::ops::Range;
 
 /// A reading that the odometer has always passed: look at once.
@@ -82,7 +83,7 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     /// Braked vehicles and the step in which they are released.
     braked: Vec<(usize, u64)>,
     frustration: Vec<f64>,
-    /// r·dt of every driver.
+    /// r·dt of every driver (padded, as φ is).
     frustration_step: Vec<f64>,
     lane_changes: Vec<u32>,
     sampler: S,
@@ -93,10 +94,10 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     collision: Option<Collision>,
     /// Actions still to come, the next one last: (step, place in the list).
     agenda: Vec<(u64, usize)>,
-    /// How far the fastest vehicle of each step has gone ahead of the slowest, summed over the steps, m: no two can
-    /// have come closer by more.
-    odometer: f64,
-    /// The reading of the odometer before which no two vehicles can touch.
+    width: Width,
+    odometer: Odometer,
+    /// How far the fastest must have gone ahead of the slowest before two vehicles can touch, m: see
+    /// [`Odometer::apart`].
     clear_until: f64,
 }
 
@@ -128,8 +129,8 @@ impl<S: Sampler> Simulation<S> {
             seen: vec![0.0; padded(n)],
             nudged: vec![0.0; n],
             braked: Vec::new(),
-            frustration: vec![0.0; n],
-            frustration_step: Vec::with_capacity(n),
+            frustration: vec![0.0; padded(n)],
+            frustration_step: vec![0.0; padded(n)],
             lane_changes: vec![0; n],
             sampler: S::new(n, scenario.time_step, Generator::new(scenario.seed, Stream::LaneChanging)),
             passes: Vec::with_capacity(events),
@@ -138,7 +139,8 @@ impl<S: Sampler> Simulation<S> {
             events_step: 0,
             collision: None,
             agenda,
-            odometer: 0.0,
+            width: Width::widest(),
+            odometer: Odometer::default(),
             clear_until: LOOK,
             drivers,
             delays,
@@ -279,11 +281,11 @@ impl<S: Sampler> Simulation<S> {
         }
         self.events.clear();
         self.events_step = self.step;
-        let touching = self.odometer >= self.clear_until && !self.find_clearance();
+        let touching = self.odometer.apart() >= self.clear_until && !self.find_clearance();
         if self.scenario.lanes > 1 && !(touching && self.order_is_lost()) {
             self.change_lanes();
         }
-        if self.odometer >= self.clear_until {
+        if self.odometer.apart() >= self.clear_until {
             self.detect_collision();
             if self.collision.is_some() {
                 return;
@@ -315,11 +317,11 @@ impl<S: Sampler> Simulation<S> {
                 *row = past.seen(delay);
             }
             let scene = Scene { offset, seen: &seen[..delays.len()], chosen: self.delays.chosen() };
-            self.odometer += self.following.advance_in_order(old, new, scene, dt, refresh);
+            self.odometer.advance(self.following.advance_in_order(old, new, scene, dt, refresh));
             self.history.close();
             self.hold_braked();
         } else {
-            self.odometer += self.following.drive(old, dt, new);
+            self.odometer.advance(self.following.drive(old, dt, new));
             self.history.close();
             if acts {
                 self.apply_due_actions();
@@ -366,7 +368,7 @@ impl<S: Sampler> Simulation<S> {
                 j
             };
             let attempt = if j < passed {
-                self.compare(j..passed, 0)
+                self.compare_unpassed(j..passed)
             } else {
                 let mut count = 0;
                 while let Some(&pass) = self.passes.get(next_pass).filter(|p| p.passed as usize == j) {
@@ -390,19 +392,58 @@ impl<S: Sampler> Simulation<S> {
         }
     }
 
+    /// [`Self::compare`] for vehicles that nobody has passed, as many at once as are quiet.
+    fn compare_unpassed(&mut self, vehicles: Range<usize>) -> Option<(usize, [f64; 2])> {
+        let Range { start: mut j, end } = vehicles;
+        // The padding is always quiet.
+        let chunks = if end == self.drivers.len() { padded(end) } else { end } / CHUNK;
+        while j < end {
+            if j.is_multiple_of(CHUNK)
+                && let (Some(delay), Some((clocks, per_step))) = (self.delays.common(), self.sampler.clocks())
+            {
+                let comparison = Comparison {
+                    seen: self.history.seen(delay),
+                    beside: self.ring.all_beside(),
+                    offsets: self.ring.offsets(),
+                    gaps: self.following.gaps(),
+                    change: &self.frustration_step,
+                };
+                let mut next = j / CHUNK;
+                compare_quietly(
+                    self.width,
+                    comparison,
+                    &mut self.frustration,
+                    clocks,
+                    per_step,
+                    &mut next,
+                    chunks,
+                );
+                j = next * CHUNK;
+            }
+            let stop = (j + 1).next_multiple_of(CHUNK).min(end);
+            if j < stop {
+                let attempt = self.compare(j..stop, 0);
+                if attempt.is_some() {
+                    return attempt;
+                }
+                j = stop;
+            }
+        }
+        None
+    }
+
     /// Rules 1 and 2 for vehicles that have been passed by `passes` others each, then rule 3, up to the first that
     /// attempts a lane change: which, and the headways it perceives in the adjacent lanes.
     fn compare(&mut self, vehicles: Range<usize>, passes: u32) -> Option<(usize, [f64; 2])> {
         let (history, delays) = (&self.history, &self.delays);
         let common = delays.common().map(|delay| history.seen(delay));
-        let beside = self.ring.all_beside();
         let (offsets, gaps) = (self.ring.offsets(), self.following.gaps());
         for j in vehicles {
             let seen = match common {
                 Some(row) => row,
                 None => history.seen(delays.of(j)),
             };
-            let [outer, inner] = [beside[j][0].distance(j, seen), beside[j][1].distance(j, seen)];
+            let [outer, inner] = Side::BOTH.map(|side| self.ring.beside(j, side).distance(j, seen));
             let best = if outer > inner { outer } else { inner };
             let mut frustration =
                 compared(self.frustration[j], offsets[j] + gaps[j], best, self.frustration_step[j]);
@@ -454,7 +495,7 @@ impl<S: Sampler> Simulation<S> {
         self.lane_changes[j] += 1;
         for vehicle in [follower, self.ring.behind(j), j] {
             self.look_again(vehicle);
-            self.clear_until = self.clear_until.min(self.odometer + 0.999 * self.clearance(vehicle));
+            self.clear_until = self.clear_until.min(self.odometer.apart() + 0.999 * self.clearance(vehicle));
         }
     }
 
@@ -478,7 +519,7 @@ impl<S: Sampler> Simulation<S> {
     /// Whether nobody touches; the closest pair tells for how long nobody can. The factor leaves room for rounding.
     fn find_clearance(&mut self) -> bool {
         let closest = (0..self.drivers.len()).map(|j| self.clearance(j)).fold(f64::INFINITY, f64::min);
-        self.clear_until = self.odometer + 0.999 * closest;
+        self.clear_until = self.odometer.apart() + 0.999 * closest;
         closest > 0.0
     }
 
@@ -532,7 +573,9 @@ impl<S: Sampler> Simulation<S> {
 
     /// Computes with vectors of another width; results stay the same to the last bit.
     pub fn set_width(&mut self, width: Width) {
+        self.width = width;
         self.following.set_width(width);
+        self.ring.set_width(width);
     }
 
     /// Moves the end of the run, s.
@@ -601,8 +644,9 @@ impl<S: Sampler> Simulation<S> {
         self.history.look_back(longest.max(self.history.looks_back()));
         self.history_is_long = longest < self.history.looks_back();
         let dt = self.scenario.time_step;
-        self.frustration_step.clear();
-        self.frustration_step.extend(self.drivers.iter().map(|d| d.frustration_rate * dt));
+        for (step, driver) in self.frustration_step.iter_mut().zip(&self.drivers) {
+            *step = driver.frustration_rate * dt;
+        }
         self.clear_until = LOOK;
     }
 }

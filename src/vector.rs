@@ -75,6 +75,20 @@ mod chunk {
             }
             within
         }
+        /// A bit for each number, the first one lowest: whether it is at least the other one.
+        #[inline(always)]
+        pub(crate) fn reaches(self, other: Self) -> u8 {
+            let mut bits = 0;
+            for j in 0..CHUNK {
+                bits |= u8::from(self.0[j] >= other.0[j]) << j;
+            }
+            bits
+        }
+        /// `value` where the number is smaller than the other one, else 0.
+        #[inline(always)]
+        pub(crate) fn where_below(self, other: Self, value: Self) -> Self {
+            Self(std::array::from_fn(|j| if self.0[j] < other.0[j] { value.0[j] } else { 0.0 }))
+        }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]
         pub(crate) fn choose(self, yes: Self, no: Self) -> Self {
@@ -159,8 +173,9 @@ mod chunk {
 mod chunk {
     use super::{CHUNK, Real};
     use core::arch::wasm32::{
-        f64x2_add, f64x2_extract_lane, f64x2_le, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sub,
-        i64x2_add, i64x2_all_true, i64x2_shl, v128, v128_bitselect, v128_load, v128_store,
+        f64x2_add, f64x2_extract_lane, f64x2_ge, f64x2_le, f64x2_lt, f64x2_mul, f64x2_pmax, f64x2_pmin,
+        f64x2_splat, f64x2_sub, i64x2_add, i64x2_all_true, i64x2_bitmask, i64x2_shl, v128, v128_and,
+        v128_bitselect, v128_load, v128_store,
     };
 
     /// [`CHUNK`] numbers side by side.
@@ -213,6 +228,20 @@ mod chunk {
             let [a, b, c, d] = self.0;
             let sum = f64x2_add(f64x2_add(a, b), f64x2_add(c, d));
             i64x2_all_true(f64x2_le(sum, f64x2_splat(bound)))
+        }
+        /// A bit for each number, the first one lowest: whether it is at least the other one.
+        #[inline(always)]
+        pub(crate) fn reaches(self, other: Self) -> u8 {
+            let (x, y) = (self.0, other.0);
+            let bits = |j: usize| i64x2_bitmask(f64x2_ge(x[j], y[j])) << (2 * j);
+            bits(0) | bits(1) | bits(2) | bits(3)
+        }
+        /// `value` where the number is smaller than the other one, else 0.
+        #[inline(always)]
+        pub(crate) fn where_below(self, other: Self, value: Self) -> Self {
+            let (x, y, v) = (self.0, other.0, value.0);
+            let one = |j: usize| v128_and(f64x2_lt(x[j], y[j]), v[j]);
+            Self([one(0), one(1), one(2), one(3)])
         }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]
