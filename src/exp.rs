@@ -8,7 +8,7 @@
 //! **Accuracy.** Under 1 ulp over the whole range; a test holds it against a reference in twice the precision.
 //!
 //! **Outside.** [`exp`] gives 0 below −745.14, +∞ above 709.79, subnormal numbers between −745.14 and −708.4,
-//! NaN for NaN. [`exp_within`] holds its argument to ±700 first, which is what the car-following law needs:
+//! NaN for NaN. Car following holds the argument to ±700 first, which is what its law needs:
 //! e^700 and all above mean "stand still", e^−700 and all below mean "as fast as possible".
 
 use crate::vector::Real;

@@ -264,13 +264,14 @@ kernel! {
 }
 
 kernel! {
-    /// Speeds for the gaps `now`.
+    /// Speeds for the gaps to these leaders in the row `seen`; without leaders `seen` holds the gaps.
     fn respond_all(
-        now: &[f64], offset: &[f64], laws: &Laws, refresh: bool,
+        seen: &[f64], leaders: Option<&[u32]>, offset: &[f64], laws: &Laws, refresh: bool,
         gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64],
     ) {
         let count = speed.len() / CHUNK;
-        let (now, offset) = (&chunks(now)[..count], &chunks(offset)[..count]);
+        let (own, offset) = (&chunks(seen)[..count], &chunks(offset)[..count]);
+        let leaders = leaders.map(|leaders| &leaders.as_chunks::<CHUNK>().0[..count]);
         let gap = &mut chunks_mut(gap)[..count];
         let shortfall = &mut chunks_mut(shortfall)[..count];
         let speed = &mut chunks_mut(speed)[..count];
@@ -284,7 +285,8 @@ kernel! {
                 rate: Chunk::load(&rate[k]),
                 min_headway: Chunk::load(&min_headway[k]),
             };
-            let now = Chunk::load(&now[k]);
+            let own = Chunk::load(&own[k]);
+            let now = leaders.map_or(own, |leaders| Chunk::gather(seen, &leaders[k]) - own);
             let next = respond(now, &gap[k], &shortfall[k], &offset[k], law, refresh);
             now.store(&mut gap[k]);
             next.store(&mut shortfall[k]);
@@ -421,10 +423,17 @@ impl Following {
         (extremes.0 * dt, extremes.1 * dt)
     }
 
-    /// New speeds for the gaps `now` (m, padded) to leaders at `offset`; all shortfalls in full where `refresh` says so.
-    pub fn respond(&mut self, now: &[f64], offset: &[f64], refresh: bool) {
+    /// New speeds of drivers who all see the displacements `seen` (m, padded), with leaders at `offset`; all shortfalls
+    /// in full where `refresh` says so.
+    pub fn respond(&mut self, seen: &[f64], leaders: &[u32], offset: &[f64], refresh: bool) {
         let State { gap, shortfall, speed } = &mut self.state;
-        respond_all(self.width, now, offset, &self.laws, refresh, gap, shortfall, speed);
+        respond_all(self.width, seen, Some(leaders), offset, &self.laws, refresh, gap, shortfall, speed);
+    }
+
+    /// The same for gaps (m, padded) that each driver has seen at another time.
+    pub fn respond_to_gaps(&mut self, gaps: &[f64], offset: &[f64], refresh: bool) {
+        let State { gap, shortfall, speed } = &mut self.state;
+        respond_all(self.width, gaps, None, offset, &self.laws, refresh, gap, shortfall, speed);
     }
 
     /// The same for one vehicle that has another leader.
@@ -465,7 +474,7 @@ mod tests {
                         let mut following = Following::new(&drivers, CHUNK);
                         let mut gap = [0.0; CHUNK];
                         for step in 0..steps {
-                            following.respond(&gap, &OFFSET, step.is_multiple_of(REFRESH));
+                            following.respond_to_gaps(&gap, &OFFSET, step.is_multiple_of(REFRESH));
                             if step % REFRESH == REFRESH - 1 {
                                 for (j, driver) in drivers.iter().enumerate() {
                                     let error = (following.speeds()[j] - driver.speed(20.0 + gap[j])).abs();
@@ -503,19 +512,19 @@ mod tests {
         let driver = Driver::default();
         let mut following = Following::new(&[driver; CHUNK], CHUNK);
         let mut gap = [0.0; CHUNK];
-        following.respond(&gap, &OFFSET, true);
+        following.respond_to_gaps(&gap, &OFFSET, true);
         gap[3] = -12.0;
         gap[4] = 1e-9;
-        following.respond(&gap, &OFFSET, false);
+        following.respond_to_gaps(&gap, &OFFSET, false);
         assert_eq!(following.speeds()[3], driver.speed(8.0));
         assert_eq!(following.speeds()[2], driver.speed(20.0));
         gap[3] = -1e6;
         gap[5] = 1e9;
-        following.respond(&gap, &OFFSET, false);
+        following.respond_to_gaps(&gap, &OFFSET, false);
         assert_eq!((following.speeds()[3], following.speeds()[5]), (0.0, 40.0));
         // Back from where the exponential would have overflowed.
         gap[3] = 0.0;
-        following.respond(&gap, &OFFSET, false);
+        following.respond_to_gaps(&gap, &OFFSET, false);
         assert_eq!(following.speeds()[3], driver.speed(20.0));
     }
 
@@ -523,7 +532,7 @@ mod tests {
     fn another_leader_is_as_good_as_a_start() {
         let driver = Driver { sensitivity: 1.3, ..Driver::default() };
         let mut one = Following::new(&[driver; 3], CHUNK);
-        one.respond(&[0.0; CHUNK], &OFFSET, true);
+        one.respond_to_gaps(&[0.0; CHUNK], &OFFSET, true);
         one.respond_to_another(1, 0.3, 17.0);
         let mut offset = OFFSET;
         let mut gap = [0.0; CHUNK];
@@ -531,7 +540,7 @@ mod tests {
             (offset[j], gap[j]) = (17.0, 0.3);
         }
         let mut all = Following::new(&[driver; 3], CHUNK);
-        all.respond(&gap, &offset, true);
+        all.respond_to_gaps(&gap, &offset, true);
         assert_eq!(one.speeds(), all.speeds(), "images included");
     }
 
@@ -578,7 +587,7 @@ mod tests {
                             row[j + 1] - row[j]
                         })
                         .collect();
-                    twice.respond(&gap, &offset, step == 0);
+                    twice.respond_to_gaps(&gap, &offset, step == 0);
                     assert_eq!(ahead[0], ahead[1]);
                     assert_eq!(new[0], new[1]);
                     assert_eq!(once.gaps(), twice.gaps());

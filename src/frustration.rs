@@ -74,16 +74,9 @@ kernel! {
         let clocks = &mut chunks_mut(clocks)[..end];
         let (per_step, equal, none) = (Chunk::splat(per_step), Chunk::splat(EQUAL), Chunk::splat(0.0));
         for k in *next..end {
-            let gathered = |vehicles: &[u32; CHUNK]| {
-                let mut found = [0.0; CHUNK];
-                for j in 0..CHUNK {
-                    found[j] = seen[vehicles[j] as usize];
-                }
-                Chunk::load(&found)
-            };
             let own = Chunk::load(&own[k]);
-            let outer = Chunk::load(&outer_offsets[k]) + (gathered(&outer_vehicles[k]) - own);
-            let inner = Chunk::load(&inner_offsets[k]) + (gathered(&inner_vehicles[k]) - own);
+            let outer = Chunk::load(&outer_offsets[k]) + (Chunk::gather(seen, &outer_vehicles[k]) - own);
+            let inner = Chunk::load(&inner_offsets[k]) + (Chunk::gather(seen, &inner_vehicles[k]) - own);
             let adjacent = inner.most(outer);
             let own = Chunk::load(&offsets[k]) + Chunk::load(&gaps[k]);
             let change = Chunk::load(&change[k]);

@@ -333,12 +333,13 @@ impl<S: Sampler> Simulation<S> {
     /// What everyone sees now, and the speeds that follow: the vehicle in front now, both where they were the
     /// driver's delay ago.
     fn look(&mut self, refresh: bool) {
-        let leaders = self.ring.leaders();
-        match self.delays.common() {
-            Some(delay) => see_alike(leaders, self.history.seen(delay), &mut self.seen),
-            None => see_apart(leaders, self.delays.all(), &self.history, &mut self.seen),
+        let (leaders, offsets) = (self.ring.leaders(), self.ring.offsets());
+        if let Some(delay) = self.delays.common() {
+            self.following.respond(self.history.seen(delay), leaders, offsets, refresh);
+        } else {
+            see_apart(leaders, self.delays.all(), &self.history, &mut self.seen);
+            self.following.respond_to_gaps(&self.seen, offsets, refresh);
         }
-        self.following.respond(&self.seen, self.ring.offsets(), refresh);
         self.hold_braked();
     }
 
@@ -648,13 +649,6 @@ impl<S: Sampler> Simulation<S> {
             *step = driver.frustration_rate * dt;
         }
         self.clear_until = LOOK;
-    }
-}
-
-/// Gaps that drivers with one delay see; `seen` is the row of that delay.
-fn see_alike(leaders: &[u32], seen: &[f64], gaps: &mut [f64]) {
-    for (j, (gap, &leader)) in gaps.iter_mut().zip(leaders).enumerate() {
-        *gap = seen[leader as usize] - seen[j];
     }
 }
 

@@ -54,6 +54,11 @@ mod chunk {
         pub(crate) fn load(from: &[f64; CHUNK]) -> Self {
             Self(*from)
         }
+        /// The numbers at these places of a slice.
+        #[inline(always)]
+        pub(crate) fn gather(from: &[f64], places: &[u32; CHUNK]) -> Self {
+            Self(places.map(|place| from[place as usize]))
+        }
         #[inline(always)]
         pub(crate) fn store(self, to: &mut [f64; CHUNK]) {
             *to = self.0;
@@ -173,9 +178,9 @@ mod chunk {
 mod chunk {
     use super::{CHUNK, Real};
     use core::arch::wasm32::{
-        f64x2_add, f64x2_extract_lane, f64x2_ge, f64x2_le, f64x2_lt, f64x2_mul, f64x2_pmax, f64x2_pmin,
-        f64x2_splat, f64x2_sub, i64x2_add, i64x2_all_true, i64x2_bitmask, i64x2_shl, v128, v128_and,
-        v128_bitselect, v128_load, v128_store,
+        f64x2, f64x2_add, f64x2_extract_lane, f64x2_ge, f64x2_le, f64x2_lt, f64x2_mul, f64x2_pmax,
+        f64x2_pmin, f64x2_splat, f64x2_sub, i64x2_add, i64x2_all_true, i64x2_bitmask, i64x2_shl, v128,
+        v128_and, v128_bitselect, v128_load, v128_store,
     };
 
     /// [`CHUNK`] numbers side by side.
@@ -196,6 +201,12 @@ mod chunk {
                     v128_load(from.add(3)),
                 ])
             }
+        }
+        /// The numbers at these places of a slice.
+        #[inline(always)]
+        pub(crate) fn gather(from: &[f64], places: &[u32; CHUNK]) -> Self {
+            let pair = |j: usize| f64x2(from[places[j] as usize], from[places[j + 1] as usize]);
+            Self([pair(0), pair(2), pair(4), pair(6)])
         }
         #[inline(always)]
         #[allow(unsafe_code, clippy::cast_ptr_alignment)]
