@@ -12,6 +12,7 @@ use crate::probe::Probe;
 use crate::probe::growth::{Growth as Modal, Linear};
 use crate::scenario::{Scenario, assign};
 use crate::simulation::Simulation;
+use crate::stability::plane::Plane;
 use crate::stability::report::{Roots, roots_of_lane};
 use crate::table::Table;
 use crate::verdict::{self, Verdict, verdict};
@@ -541,12 +542,23 @@ impl Live {
         Ok(verdict(&lanes, scenario.length, scenario.time_step))
     }
 
-    /// What theory would say with so many vehicles at that reaction time, both as typed.
-    pub fn preview_point(&self, vehicles: &str, reaction_time: &str) -> Result<Verdict, Invalid> {
-        if vehicles.parse() == Ok(self.simulation.vehicles()) {
-            return self.preview("reaction_time", reaction_time);
+    /// What theory would say at that reaction time with so many vehicles on all lanes, both as typed; without a number,
+    /// with the vehicles in the lanes where they are now.
+    pub fn preview_point(&self, vehicles: Option<&str>, reaction_time: &str) -> Result<Verdict, Invalid> {
+        match vehicles {
+            None => self.preview("reaction_time", reaction_time),
+            Some(n) => Self::new(&self.with("vehicles", n)?)?.preview("reaction_time", reaction_time),
         }
-        Self::new(&self.with("vehicles", vehicles)?)?.preview("reaction_time", reaction_time)
+    }
+
+    /// The stability plane of the lane that the verdict speaks of: of its drivers where they are alike, else of
+    /// those without an exception. Its driver has the reaction time where the lane stands in the plane.
+    pub fn plane(&mut self) -> Plane {
+        let &Verdict { alike, lane, .. } = self.verdict();
+        let settled = self.settled();
+        let first = (0..self.simulation.vehicles()).find(|&j| alike && self.simulation.lane(j) + 1 == lane);
+        let driver = first.map_or(settled.driver, |j| *self.simulation.driver(j));
+        Plane { driver, ..Plane::of(&settled) }
     }
 
     /// The same scenario from its beginning, with all its actions, or with those at t = 0 only.
@@ -609,6 +621,30 @@ mod tests {
             assert!((growth.rate - predicted).abs() < growth.nonlinear_bound + 3.0 * growth.standard_error);
             assert!(growth.nonlinear_bound > 0.0 && growth.nonlinear_bound < 0.1 * predicted.abs());
         }
+    }
+
+    /// With several lanes the plane is of the lane that the verdict speaks of, and a point of it says what the run does
+    /// that is started there.
+    #[test]
+    fn plane_and_verdict_speak_of_the_same_lane() {
+        let mut live = run("vehicles=50&lanes=2&reaction-time=0.75", 0.0);
+        let verdict = *live.verdict();
+        let tau = live.plane().curves([verdict.vehicles]).discrete_s[0];
+        assert_eq!((verdict.lane, verdict.vehicles, verdict.critical_discrete), (1, 25, tau));
+        let foreseen = live.preview_point(Some("80"), "0.9").unwrap();
+        assert_eq!((foreseen.vehicles, foreseen.stable), (40, Some(false)));
+        live.set("reaction-time", "0.9").unwrap();
+        live.set("vehicles", "80").unwrap();
+        assert_eq!(foreseen, *live.verdict());
+
+        // A lane of exceptions only has a plane of its own; a lane that is mixed has that of the others.
+        let mut live = run("vehicles=50&lanes=2&driver=1-25:sensitivity=2,reaction-time=0.4", 0.0);
+        let (verdict, driver) = (*live.verdict(), live.plane().driver);
+        assert_eq!((verdict.lane, verdict.alike), (1, true));
+        assert_eq!((driver.sensitivity, driver.reaction_time), (2.0, 0.4));
+        let mut live = run("reaction-time=0.7&driver=1-25:sensitivity=2,reaction-time=0.4", 0.0);
+        assert!(!live.verdict().alike);
+        assert_eq!((live.plane().driver.sensitivity, live.plane().driver.reaction_time), (1.0, 0.7));
     }
 
     #[test]

@@ -410,6 +410,7 @@ fn verdict(v: &Verdict) -> Value {
         "flow": v.equilibrium.flow,
         "density": v.equilibrium.density,
         "lane": v.lane,
+        "vehicles": v.vehicles,
     })
 }
 
