@@ -6,8 +6,18 @@ import type { Growth, Verdict } from '../shared/protocol'
 const seconds = (s: number) => unit(fixed(s, 3), 's')
 /** A critical reaction time; none where every one is stable. */
 const tau = (s: number | null) => (s === null ? '–' : unit(exactly(s, 3), 's'))
+/** Two significant digits. */
+const short = (x: number) => String(Number(x.toPrecision(2)))
 const jams = (n: number) => (n === 1 ? '1 jam' : `${n} jams`)
 const pace = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
+/** The same where the rate is known to within a bound: a range, unless the bound is small. */
+function within(rate: number, bound: number): string {
+  if (bound < 0.05 * Math.abs(rate)) return pace(rate)
+  if (bound >= Math.abs(rate)) return 'waves too large to tell'
+  const [fast, slow] = [rate + Math.sign(rate) * bound, rate - Math.sign(rate) * bound].map(r => span(Math.LN2 / Math.abs(r)))
+  const [from, of] = fast!.split('\u202f')
+  return `${rate > 0 ? 'doubles' : 'halves'} every ${slow!.endsWith(of!) ? from : fast}–${slow}`
+}
 
 export const en = {
   title: 'Ringroad',
@@ -72,7 +82,7 @@ export const en = {
       const over = g.window < 59 ? `measured, ${span(g.window)}: ` : 'measured: '
       const now = large ? '; now large waves' : ''
       if (Math.abs(g.rate) < 2 * g.standard_error || Math.abs(g.rate) < 1e-6) return `${over}neither grows nor fades${now}`
-      return over + pace(g.rate) + now
+      return over + within(g.rate, g.nonlinear_bound) + now
     },
     measuring: 'measuring …',
     large: 'large waves, beyond linear theory',
@@ -291,21 +301,35 @@ export const en = {
     title: 'Where waves grow',
     stable: 'stable',
     unstable: 'unstable',
-    vehicles: 'vehicles N',
+    jam: 'jam',
+    /** The lane where there are several, else null. */
+    vehicles: (lane: number | null): string => (lane === null ? 'vehicles N' : `vehicles in lane ${lane}`),
+    /** Where a colour bar stands beside it. */
+    vehiclesShort: (lane: number | null): string => (lane === null ? 'vehicles N' : `N in lane ${lane}`),
     reaction: 'reaction time Δ (s)',
     handle: 'Vehicles and reaction time',
     kind: 'two-way slider',
     hint: 'Drag the point, or use its arrow keys: ← → vehicles, ↑ ↓ reaction time. A new N starts again.',
-    value: (n: number, delta: number, state: string): string =>
-      `${n} vehicles, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
+    hintLanes: (lane: number, each: boolean): string =>
+      `The plane is of lane ${lane}, as the verdict is. Drag the point, or use its arrow keys: ← → vehicles, ↑ ↓ reaction time. A new number starts again, with as many ${each ? 'in every lane' : 'in the one lane of the start'}.`,
+    value: (n: number, lane: number | null, delta: number, state: string): string =>
+      `${n} vehicles${lane === null ? '' : ` in lane ${lane}`}, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
     drag: 'drag the point',
     /** A curve and its value at the point's N. */
     discrete: (s: number | null): string => `τ in steps: ${tau(s)}`,
     continuous: (s: number | null): string => `τ continuous: ${tau(s)}`,
     newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
-    describe: (n: number, discrete: number | null, continuous: number | null, newell: number | null): string =>
-      `The plane of vehicles and reaction time. With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`,
-    common: 'The curves are those of the drivers without an exception.',
+    describe: (n: number, lane: number | null, discrete: number | null, continuous: number | null, newell: number | null): string =>
+      `The plane of vehicles${lane === null ? '' : ` in lane ${lane}`} and reaction time. ${discrete === null && continuous === null ? `With ${n} vehicles nothing moves: a jam.` : `With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`}`,
+    common: 'Drivers differ; the plane is for drivers alike, those without an exception.',
+    ground: 'What the plane shows',
+    grounds: { regions: 'regions', steps: 'growth rate', continuous: 'continuous growth rate' },
+    every: 'modes',
+    everyHint: 'The critical reaction time of every single mode: of the run’s steps, or of continuous time with the continuous growth rate',
+    map: (part: number): string =>
+      part < 1 ? `Growth rates: ${fixed(100 * part, 0)} % computed.` : 'Colours show the largest growth rate, from blue, fading, to orange, growing.',
+    rate: (rate: number): string => (rate > 0 ? `+${rate}` : fixed(rate, 2)),
+    rateUnit: '1/s',
   },
 
   roots: {
@@ -331,12 +355,15 @@ export const en = {
     measured: 'measured',
     waiting: (t: number): string => `Measuring from t = ${unit(fixed(t, 1), 's')} on …`,
     quiet: 'No wave to measure: nudge a car.',
-    linear: (from: number): string => `Linear since t = ${unit(fixed(from, 1), 's')}.`,
-    left: (to: number): string => `Left the linear regime at t = ${unit(fixed(to, 1), 's')}.`,
+    linear: (from: number, bound: number | null): string =>
+      `Linear since t = ${unit(fixed(from, 1), 's')}${bound === null ? '' : `, within ±${unit(short(bound), '1/s')}`}.`,
+    left: (to: number, bound: number | null): string =>
+      `Left the linear regime at t = ${unit(fixed(to, 1), 's')}${bound === null ? '' : `; until then within ±${unit(short(bound), '1/s')}`}.`,
     disturbed: (to: number): string => `Disturbed at t = ${unit(fixed(to, 1), 's')}.`,
     faded: (to: number): string => `Faded into rounding at t = ${unit(fixed(to, 1), 's')}.`,
     large: 'Waves are too large now for linear theory.',
-    differ: 'Drivers differ: the modes mix, and theory knows the ring as a whole.',
+    differ: 'Drivers differ: modes mix. Theory: the ring’s roots, followed from equal drivers.',
+    bound: 'The waves’ size may have moved the rate by so much at most.',
     one: (mode: number, rate: number, predicted: number | null): string =>
       `mode ${mode}: ${exactly(rate, 4)}${predicted === null ? '' : ` against ${exactly(predicted, 4)}`}`,
     describe: (list: string): string => (list === '' ? 'Growth of each mode: nothing measured yet.' : `Growth per second, measured against theory: ${list}.`),
