@@ -62,7 +62,7 @@ export function growthMap(client: Client, going: () => boolean, progress: () => 
         image.data.set([...colour(rate, dark), 255], 4 * ((DELAYS - 1 - i) * (done - from) + k - from))
       }
     }
-    picture.getContext('2d')!.putImageData(image, from, 0)
+    picture.getContext('2d', { willReadFrequently: true })!.putImageData(image, from, 0)
   }
   const run = async () => {
     if (running) return

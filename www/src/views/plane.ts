@@ -99,8 +99,8 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     if (!curves || !plane) return
     const f = frame(w, h, 30)
     const x = (n: number) => across(f, n)
-    // What is infinite lies above everything.
-    const y = (delay: number | null) => up(f, delay ?? 1e3)
+    // What lies far above lies just above: dashes along a line of a million pixels would keep the painter for long.
+    const y = (delay: number | null) => up(f, Math.min(delay ?? Infinity, 4 * highest()))
     const path = (values: ArrayLike<number | null>) => {
       let on = false
       curves!.vehicles.forEach((n, k) => {
@@ -132,8 +132,8 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
       c.beginPath()
       path(curves.discrete_s)
       c.lineTo(jam, y(curves.discrete_s[ends.length - 1] ?? null))
-      c.lineTo(jam, -1e4)
-      c.lineTo(x(2), -1e4)
+      c.lineTo(jam, y(null))
+      c.lineTo(x(2), y(null))
       c.closePath()
       c.fillStyle = style('--bad-ground')
       c.fill()
