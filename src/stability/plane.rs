@@ -9,7 +9,6 @@ use crate::error::Invalid;
 use crate::parameters::Parameter;
 use crate::scenario::Scenario;
 use crate::table::{Column, Table};
-use serde::Serialize;
 
 /// A lane that any number of equal drivers may share.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +22,7 @@ pub struct Plane {
 }
 
 /// Critical reaction times over the number of vehicles in the lane. What is infinite is `None`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     /// N.
     pub vehicles: Vec<usize>,

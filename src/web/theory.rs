@@ -20,13 +20,18 @@ impl Lab {
         (plane, plane.numbers(self.live.verdict().vehicles, POINTS))
     }
 
-    /// The plane of the lane that the verdict speaks of, as JSON: critical reaction times over the number of vehicles
-    /// in it, the number where it is a jam, and the reaction time of its drivers, or of those without an exception.
-    pub fn plane(&mut self) -> String {
+    /// The plane of the lane that the verdict speaks of: the number of vehicles beyond which it is a jam; the reaction
+    /// time of its drivers, or of those without an exception; then numbers of vehicles, and as many critical reaction
+    /// times (s) in continuous time, in steps, and by Newell's limit. What is not finite: every one is stable.
+    pub fn plane(&mut self) -> Vec<f64> {
         let (plane, numbers) = self.numbers();
-        let curves = plane.curves(numbers);
-        json!({ "curves": curves, "jam": plane.jam(), "reaction_time": plane.driver.reaction_time })
-            .to_string()
+        let curves = plane.curves(numbers.iter().copied());
+        let mut all = vec![plane.jam(), plane.driver.reaction_time];
+        all.extend(numbers.iter().map(|&n| n as f64));
+        for column in [curves.continuous_s, curves.discrete_s, curves.newell_s] {
+            all.extend(column.into_iter().map(|tau| tau.unwrap_or(f64::INFINITY)));
+        }
+        all
     }
 
     /// Critical reaction times of single modes (s), mode after mode, over the same numbers of vehicles: infinite in

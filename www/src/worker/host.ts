@@ -109,7 +109,13 @@ export class Host {
     },
     preview: ({ name, value }) => JSON.parse(this.#core.preview(name, value)),
     previewPoint: ({ vehicles, reactionTime }) => JSON.parse(this.#core.preview_point(vehicles?.toString(), String(reactionTime))),
-    plane: () => JSON.parse(this.#core.plane()),
+    plane: () => {
+      const [jam, reaction_time, ...all] = this.#core.plane()
+      const count = all.length / 4
+      const column = (k: number) => all.slice(k * count, (k + 1) * count).map(v => (Number.isFinite(v) ? v : null))
+      const curves = { vehicles: all.slice(0, count), continuous_s: column(1), discrete_s: column(2), newell_s: column(3) }
+      return { jam: jam!, reaction_time: reaction_time!, curves }
+    },
     planeModes: ({ steps }) => this.#core.plane_modes(steps),
     growthRates: async ({ vehicles, highest, count, steps, budget }) => {
       const job = ++this.#map
