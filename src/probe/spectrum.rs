@@ -14,6 +14,7 @@ pub(super) struct Spectrum {
     /// Largest |δ_k|, m.
     pub largest: f64,
     /// (λ/V)·mean of δ_k², m: the second order of the speed law against its first, before division by an amplitude.
+    /// Infinite while somebody stands who in equilibrium drives: the law has a kink there.
     pub second_order: f64,
     /// Vehicles in the lane from the lowest number on, downstream.
     order: Vec<usize>,
@@ -51,6 +52,12 @@ impl Spectrum {
         self.largest = self.deviations(simulation).map(f64::abs).fold(0.0, f64::max);
         let squares = self.deviations(simulation).zip(&self.drivers);
         self.second_order = squares.map(|(x, d)| d.sensitivity / d.max_speed * x * x).sum::<f64>() / n as f64;
+        let stands = |(&j, driver): (&usize, &Driver)| {
+            simulation.headway(j).min(simulation.perceived_headway(j)) <= driver.min_headway
+        };
+        if self.slopes.iter().any(|&c| c > 0.0) && self.order.iter().zip(&self.drivers).any(stands) {
+            self.second_order = f64::INFINITY;
+        }
         for q in 1..=self.amplitudes.len() {
             if 2 * q > n {
                 self.amplitudes[q - 1] = f64::NAN;

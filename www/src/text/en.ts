@@ -10,11 +10,13 @@ const tau = (s: number | null) => (s === null ? '–' : unit(exactly(s, 3), 's')
 const short = (x: number) => String(Number(x.toPrecision(2)))
 const jams = (n: number) => (n === 1 ? '1 jam' : `${n} jams`)
 const pace = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
-/** The same where the rate is known to within a bound: a range, unless the bound is small. */
-function within(rate: number, bound: number): string {
-  if (bound < 0.05 * Math.abs(rate)) return pace(rate)
-  if (bound >= Math.abs(rate)) return 'waves too large to tell'
-  const [fast, slow] = [rate + Math.sign(rate) * bound, rate - Math.sign(rate) * bound].map(r => span(Math.LN2 / Math.abs(r)))
+/** The same as a range, unless it is known to a twentieth: what the waves' size may have done, and the scatter. */
+function within({ rate, nonlinear_bound, standard_error }: Growth): string {
+  const error = nonlinear_bound + 2 * standard_error
+  if (error < 0.05 * Math.abs(rate)) return pace(rate)
+  if (nonlinear_bound >= Math.abs(rate)) return 'waves too large to tell'
+  if (error >= Math.abs(rate)) return 'not clear yet'
+  const [fast, slow] = [error, -error].map(e => span(Math.LN2 / (Math.abs(rate) + e)))
   const [from, of] = fast!.split('\u202f')
   return `${rate > 0 ? 'doubles' : 'halves'} every ${slow!.endsWith(of!) ? from : fast}–${slow}`
 }
@@ -82,7 +84,7 @@ export const en = {
       const over = g.window < 59 ? `measured, ${span(g.window)}: ` : 'measured: '
       const now = large ? '; now large waves' : ''
       if (Math.abs(g.rate) < 2 * g.standard_error || Math.abs(g.rate) < 1e-6) return `${over}neither grows nor fades${now}`
-      return over + within(g.rate, g.nonlinear_bound) + now
+      return over + within(g) + now
     },
     measuring: 'measuring …',
     large: 'large waves, beyond linear theory',
@@ -321,7 +323,8 @@ export const en = {
     newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
     describe: (n: number, lane: number | null, discrete: number | null, continuous: number | null, newell: number | null): string =>
       `The plane of vehicles${lane === null ? '' : ` in lane ${lane}`} and reaction time. ${discrete === null && continuous === null ? `With ${n} vehicles nothing moves: a jam.` : `With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`}`,
-    common: 'Drivers differ; the plane is for drivers alike, those without an exception.',
+    common: 'Drivers without an exception',
+    commonHint: 'Drivers differ. The plane is for drivers alike: those without an exception.',
     ground: 'What the plane shows',
     grounds: { regions: 'regions', steps: 'growth rate', continuous: 'continuous growth rate' },
     every: 'modes',
@@ -362,7 +365,9 @@ export const en = {
     disturbed: (to: number): string => `Disturbed at t = ${unit(fixed(to, 1), 's')}.`,
     faded: (to: number): string => `Faded into rounding at t = ${unit(fixed(to, 1), 's')}.`,
     large: 'Waves are too large now for linear theory.',
-    differ: 'Drivers differ: modes mix. Theory: the ring’s roots, followed from equal drivers.',
+    differ: 'Drivers differ: modes mix.',
+    differHint: 'Theory: the ring’s roots, each followed from the mode of equal drivers.',
+    none: 'Nothing moves here: no waves.',
     bound: 'The waves’ size may have moved the rate by so much at most.',
     one: (mode: number, rate: number, predicted: number | null): string =>
       `mode ${mode}: ${exactly(rate, 4)}${predicted === null ? '' : ` against ${exactly(predicted, 4)}`}`,

@@ -16,7 +16,9 @@ function status(measured: ModesGrowth, alike: boolean, fastest: number | null, t
     if (time < measured.starts) return t.waiting(measured.starts)
     return lead.ended_by === 'sank into rounding' ? t.quiet : t.large
   }
-  const ended = { 'end of the run': t.linear(lead.from, lead.nonlinear_bound), 'left the linear regime': t.left(lead.to, lead.nonlinear_bound), disturbed: t.disturbed(lead.to), 'sank into rounding': t.faded(lead.to) }[lead.ended_by]
+  // What the waves' size may have done, and the scatter.
+  const error = lead.nonlinear_bound === null || lead.standard_error === null ? null : lead.nonlinear_bound + 2 * lead.standard_error
+  const ended = { 'end of the run': t.linear(lead.from, error), 'left the linear regime': t.left(lead.to, error), disturbed: t.disturbed(lead.to), 'sank into rounding': t.faded(lead.to) }[lead.ended_by]
   return [ended ?? '', alike ? '' : t.differ].join(' ').trim()
 }
 
@@ -28,7 +30,7 @@ export function modesView() {
     { id: 'modes', 'aria-labelledby': 'modes-title' },
     el('h3', { id: 'modes-title' }, t.title),
     el('div', { class: 'field' }, canvas),
-    el('div', { class: 'keys marks' }, el('span', { class: 'theory' }, t.predicted), el('span', { class: 'measured-mark', title: t.bound }, t.measured)),
+    el('div', { class: 'keys marks' }, el('span', { class: 'theory', title: t.differHint }, t.predicted), el('span', { class: 'measured-mark', title: t.bound }, t.measured)),
     said,
   )
   let theory: Roots | null = null
@@ -36,7 +38,7 @@ export function modesView() {
   const redraw = drawing(canvas, (c, w, h) => {
     if (!theory || !measured) return
     if (theory.modes.length === 0) {
-      say(c, text.roots.none, w, h)
+      say(c, t.none, w, h)
       return
     }
     if (measured.modes.length === 0) return

@@ -36,7 +36,7 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     'aria-valuemin': 0,
   })
   const lines = el('div')
-  const note = el('p', { class: 'small', hidden: true }, t.common)
+  const note = el('p', { class: 'small', hidden: true, title: t.commonHint }, t.common)
   const title = el('h3', { id: 'plane-title' }, t.title)
   const ground = el(
     'select',
