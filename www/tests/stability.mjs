@@ -206,8 +206,9 @@ test('the map of growth rates leaves room for everything else and is given up at
   })
   holds(short < 66, `${short} of 132 columns before the halt`)
   // While the point is held nothing is computed; then the map is completed.
-  await choose(page, 'continuous', { wait: false })
   await drag(page, 50, 0.6, async () => {
+    await choose(page, 'continuous', { wait: false })
+    await page.waitForTimeout(1500)
     equal(await page.getAttribute('#plane', 'data-growth'), 'busy', 'while the point is held')
   })
   await choose(page, 'continuous')

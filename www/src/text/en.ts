@@ -5,7 +5,7 @@ import type { Growth, Verdict } from '../shared/protocol'
 
 const seconds = (s: number) => unit(fixed(s, 3), 's')
 /** A critical reaction time; none where every one is stable. */
-const tau = (s: number | null) => (s === null ? '–' : unit(exactly(s, 3), 's'))
+const tau = (s: number | null) => (s === null ? '–' : s >= 1000 ? unit('over 1000', 's') : unit(exactly(s, s < 10 ? 3 : s < 100 ? 1 : 0), 's'))
 /** Two significant digits. */
 const short = (x: number) => String(Number(x.toPrecision(2)))
 const jams = (n: number) => (n === 1 ? '1 jam' : `${n} jams`)
@@ -71,7 +71,7 @@ export const en = {
           : 'With these drivers a small wave grows.'
       }
       if (v.critical_discrete <= 0) return `Drivers react after ${seconds(v.reaction_time)}; no delay at all would be small enough.`
-      return `Drivers react after ${seconds(v.reaction_time)}; this ring tolerates ${unit(exactly(v.critical_discrete, 3), 's')}${v.critical === null ? '' : ` (τ = ${unit(exactly(v.critical, 3), 's')})`}.`
+      return `Drivers react after ${seconds(v.reaction_time)}; this ring tolerates ${tau(v.critical_discrete)}${v.critical === null || v.critical >= 1000 ? '' : ` (τ = ${tau(v.critical)})`}.`
     },
     wave: (v: Verdict): string => {
       if (v.stable === null || v.rate === null || v.mode === null || v.rate === 0) return ''
