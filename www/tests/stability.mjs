@@ -105,6 +105,24 @@ test('with two lanes the plane is of the lane that the verdict speaks of', async
   holds(now.scenario.actions.at(-1).includes('reaction-time='), now.scenario.actions.join())
 })
 
+test('where drivers differ the plane says that it is for drivers alike, and theory stands beside what is measured', async ({ open }) => {
+  const page = await open(`index.html#reaction-time=0.75&driver=1-25%3Areaction-time%3D0.3&${TOUCH}`, still)
+  await ready(page)
+  await plane(page)
+  equal(await page.textContent('#plane-title'), 'If drivers were alike', 'title')
+  holds(/for drivers alike/.test(await page.getAttribute('#plane canvas', 'aria-label')), 'said in words')
+  await playTo(page, 60)
+  await page.waitForTimeout(900)
+  const label = await page.getAttribute('#modes canvas', 'aria-label')
+  holds(/mode 1: .?0\.\d+ against .?0\.00/.test(label), label)
+  const { modes } = await page.evaluate(() => window.ringroad.client.ask('modes', {}))
+  const roots = await page.evaluate(() => window.ringroad.client.ask('roots', {}))
+  for (const { mode, predicted } of modes.filter(m => m.rate !== null)) {
+    const root = roots.growth_per_s[roots.modes.indexOf(mode)]
+    holds(Math.abs(predicted - root) < 1e-9, `mode ${mode}: ${predicted} in the table, ${root} among the roots`)
+  }
+})
+
 /** Switches to a picture of the plane and waits until it is there. */
 async function choose(page, ground, { wait = true } = {}) {
   await page.selectOption('#plane-ground', ground)

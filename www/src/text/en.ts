@@ -323,8 +323,9 @@ export const en = {
     newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
     describe: (n: number, lane: number | null, discrete: number | null, continuous: number | null, newell: number | null): string =>
       `The plane of vehicles${lane === null ? '' : ` in lane ${lane}`} and reaction time. ${discrete === null && continuous === null ? `With ${n} vehicles nothing moves: a jam.` : `With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`}`,
-    common: 'Drivers without an exception',
-    commonHint: 'Drivers differ. The plane is for drivers alike: those without an exception.',
+    /** Where drivers differ. */
+    titleAlike: 'If drivers were alike',
+    alike: 'The drivers of this ring differ. The plane is for drivers alike: those without an exception.',
     ground: 'What the plane shows',
     grounds: { regions: 'regions', steps: 'growth rate', continuous: 'continuous growth rate' },
     every: 'modes',

@@ -36,7 +36,6 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     'aria-valuemin': 0,
   })
   const lines = el('div')
-  const note = el('p', { class: 'small', hidden: true, title: t.commonHint }, t.common)
   const title = el('h3', { id: 'plane-title' }, t.title)
   const ground = el(
     'select',
@@ -51,7 +50,6 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     el('div', { class: 'field' }, canvas, handle),
     lines,
     el('div', { class: 'choices-row' }, ground, el('label', { title: t.everyHint }, every, t.every)),
-    note,
   )
   let plane: Plane | null = null
   let curves: Curves | null = null
@@ -285,9 +283,12 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     const { vehicles } = shown()
     const at = curves.vehicles.findIndex(n => n >= vehicles)
     const [discrete, continuous, newell] = [curves.discrete_s, curves.continuous_s, curves.newell_s].map(c => c[at] ?? null)
-    const hint = lane() === null ? t.hint : t.hintLanes(lane()!, !intoOne())
+    const { alike } = session.snapshot.verdict
+    const differ = alike ? '' : ` ${t.alike}`
+    const hint = (lane() === null ? t.hint : t.hintLanes(lane()!, !intoOne())) + differ
     title.title = handle.title = hint
-    const words = t.describe(vehicles, lane(), discrete!, continuous!, newell!)
+    title.textContent = alike ? t.title : t.titleAlike
+    const words = t.describe(vehicles, lane(), discrete!, continuous!, newell!) + differ
     if (words === described) return
     described = words
     mark()
@@ -311,7 +312,6 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
   const show = () => {
     if (!session.snapshot) return
     if (!draft) speak(session.snapshot.verdict)
-    note.hidden = session.snapshot.verdict.alike
     draw()
     void want()
   }
