@@ -1,8 +1,18 @@
+import { readFileSync } from 'node:fs'
 import { fileURLToPath } from 'node:url'
 import { defineConfig, type Plugin } from 'vite'
 import { viteSingleFile } from 'vite-plugin-singlefile'
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url))
+
+// What the pages have in common stands in src/parts.
+const parts: Plugin = {
+  name: 'parts',
+  transformIndexHtml: {
+    order: 'pre',
+    handler: html => html.replace(/^ *<!-- part: (\w+) -->\n/gm, (_, name: string) => readFileSync(at(`src/parts/${name}.html`), 'utf8')),
+  },
+}
 
 const rename: Plugin = {
   name: 'one-file-name',
@@ -12,13 +22,21 @@ const rename: Plugin = {
   },
 }
 
+// Vite wraps every import() in a loader for the styles that belong to it. Here none does, and the loader is larger than
+// what it would save.
+const plainImport: Plugin = {
+  name: 'plain-import',
+  enforce: 'pre',
+  load: id => (id.endsWith('vite/preload-helper.js') ? 'export const __vitePreload = load => load()' : null),
+}
+
 // `vite build` writes the site, `vite build --mode one-file` the page with everything inside.
 export default defineConfig(({ mode }) => {
   const one = mode === 'one-file'
   return {
     base: './',
-    resolve: one ? { alias: [{ find: '../place', replacement: at('src/place.inline.ts') }] } : {},
-    plugins: one ? [viteSingleFile({ removeViteModuleLoader: true }), rename] : [],
+    resolve: one ? { alias: [{ find: /^\.\.\/(place|later)$/, replacement: at('src/$1.inline.ts') }] } : {},
+    plugins: one ? [parts, viteSingleFile(), rename] : [parts, plainImport],
     build: {
       target: 'es2022',
       outDir: '../dist',

@@ -48,5 +48,8 @@ export function drawing(canvas: HTMLCanvasElement, draw: (c: CanvasRenderingCont
   return redraw
 }
 
-/** The value of a custom property of the page's style, such as `--ink`. */
-export const style = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim()
+const known: Record<string, string> = {}
+/** The value of a custom property of the page's style, such as `--ink`. It is asked for once: `light-dark(…)` stays as it
+ * is until a canvas reads it. */
+export const style = (name: string): string =>
+  (known[name] ??= getComputedStyle(document.documentElement).getPropertyValue(name).trim())

@@ -119,7 +119,7 @@ const boxes = () => {
   const width = document.documentElement.clientWidth
   if (document.documentElement.scrollWidth > width) faults.push(`the page is ${document.documentElement.scrollWidth} wide`)
   for (const e of document.querySelectorAll('body *')) {
-    if (!seen(e) || e.closest('.u-wrap, .picture, svg, [data-view=embed] .top')) continue
+    if (!seen(e) || e.closest('.picture, svg, [data-view=embed] .top')) continue
     const box = e.getBoundingClientRect()
     if (box.width === 0 || box.height === 0) continue
     if (box.right > width + 0.5 || box.left < -0.5) faults.push(`${name(e)} leaves the page: ${box.left}…${box.right}`)

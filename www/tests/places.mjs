@@ -60,6 +60,27 @@ test('moves: both frames of the course page, each with its own link', async ({ o
   equal(states.join(), 'stable,unstable', 'verdicts of the two frames')
 })
 
+test('the laboratory loads nothing of the figures, and says when they cannot be loaded', async ({ open, address }) => {
+  const page = await open('about:blank')
+  const asked = []
+  page.on('request', request => asked.push(new URL(request.url()).pathname))
+  const script = /^\/assets\/figures.*\.js$/
+  let refuse = true
+  await page.route(url => script.test(url.pathname), route => (refuse ? route.abort() : route.continue()))
+  await page.goto(`${address}/index.html`)
+  await ready(page)
+  equal(asked.filter(path => script.test(path)).join(), '', 'loaded with the laboratory')
+  await page.click('#open-figures')
+  await page.waitForSelector('#figures [role=alert]')
+  await page.click('#open-figures')
+  await page.waitForSelector('#ring', { state: 'visible' })
+  refuse = false
+  await page.goto(`${address}/figures.html`)
+  await page.waitForSelector('#figures .figure .run')
+  holds(asked.some(path => script.test(path)), 'the figures came from elsewhere')
+  equal(page.problems.join(), '', 'errors on the page')
+})
+
 test('says why: the site under a policy without WebAssembly', async ({ open }) => {
   const page = await open('policy-no-wasm/index.html')
   await page.waitForSelector('[role=alert] a[href^="ringroad.html"]')

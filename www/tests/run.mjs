@@ -4,6 +4,7 @@ import { runAll } from './harness.mjs'
 await import('./places.mjs')
 await import('./traffic.mjs')
 await import('./stability.mjs')
+await import('./charts.mjs')
 await import('./input.mjs')
 await import('./manners.mjs')
 await import('./figures.mjs')

@@ -5,7 +5,7 @@ import type { Verdict } from '../src/shared/protocol'
 import { en } from '../src/text/en'
 import { inWords } from '../src/views/actions'
 import { shown } from '../src/views/controls'
-import { roundSteps } from '../src/views/map'
+import { roundSteps } from '../src/views/axes'
 
 test('numbers have as many digits as mean something', () => {
   expect(fixed(1.5, 3)).toBe('1.5')

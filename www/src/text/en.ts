@@ -26,12 +26,10 @@ export const en = {
   subtitle: 'traffic jams out of nothing',
 
   boot: {
-    starting: 'Starting …',
     failed: (why: string) => `Ringroad cannot start here: ${why}`,
     advice:
       'It needs WebAssembly. A page opened from disk, or shown under a strict security policy, may not load it: open the one-file version, ringroad.html, or ask whoever runs the site to allow ‘wasm-unsafe-eval’.',
     oneFile: 'Open ringroad.html',
-    fallback: 'Workers are not allowed here, so the page itself computes.',
   },
 
   header: {
@@ -43,14 +41,12 @@ export const en = {
     lab: 'Laboratory',
     help: 'Help',
     fullscreen: 'Full screen',
-    theme: 'Light or dark',
     next: 'Try next:',
     close: 'Close',
   },
 
   trouble: {
     title: 'That did not work',
-    rest: 'Everything else was taken.',
     dismiss: 'Dismiss',
   },
 
@@ -133,11 +129,17 @@ export const en = {
 
   speeds: {
     title: 'Speeds',
-    note: (v: number): string => `m/s · dashed: v∞ = ${exactly(v, 2)}`,
+    note: (v: number): string => `dashed: v∞ = ${unit(exactly(v, 2), 'm/s')}`,
+    unit: 'm/s',
     car: (n: number): string => `car ${n}`,
     equilibrium: 'v∞',
-    time: 'time (s)',
     chart: 'Speeds of some cars over time.',
+  },
+
+  chart: {
+    kind: 'chart',
+    hint: 'Arrow keys read values.',
+    time: (t: string): string => `t = ${t}`,
   },
 
   transport: {
@@ -190,19 +192,20 @@ export const en = {
     nudgeHint: 'Push it 1 m ahead',
     brake: (n: number): string => `Brake car ${n}`,
     brakeHint: 'Stand still for 3 s (key B)',
-    preview: 'would be',
   },
 
-  tabs: { label: 'More views', lanes: 'Lanes', car: 'Car', actions: 'Actions', stability: 'Stability', flow: 'Flow' },
+  tabs: { label: 'More views', lanes: 'Lanes', car: 'Car', actions: 'Actions', stability: 'Stability' },
 
   lanes: {
     imbalance: 'ΔN, fullest minus emptiest lane',
     flow: (window: number): string => `flow at L/2 over ${unit(fixed(window, 2), 's')} (veh/h)`,
+    symbol: 'ΔN',
+    flowName: 'flow',
     one: 'One lane: ΔN is 0.',
     counts: (counts: readonly number[]): string => counts.map((n, k) => `lane ${k + 1}: ${n}`).join(' · '),
     changes: (n: number): string => (n === 1 ? '1 lane change so far' : `${n} lane changes so far`),
     imbalanceChart: 'Difference between the fullest and the emptiest lane over time.',
-    flowChart: 'Flow over time.',
+    flowChart: 'Flow over time, vehicles per hour.',
   },
 
   car: {
@@ -225,7 +228,6 @@ export const en = {
     clear: 'Restart without them',
     clearHint: 'Keeps what belongs to t = 0',
     at: (t: string): string => `${t} s`,
-    all: 'all',
     vehicle: (who: string): string => (who === 'all' ? 'all cars' : /^\d+$/.test(who) ? `car ${who}` : `cars ${who}`),
     brake: (s: string): string => `brake for ${s} s`,
     nudge: (m: string): string => `nudge by ${m} m`,
@@ -338,7 +340,6 @@ export const en = {
 
   roots: {
     title: 'Characteristic roots',
-    note: (n: number): string => `${n === 1 ? '1 mode' : `${n} modes`}, s in 1/s`,
     real: 'growth Re s (1/s)',
     imaginary: 'Im s (1/s)',
     dominant: 'leading roots',

@@ -1,9 +1,9 @@
-// Two views in one document: the laboratory and the paper's figures. The one that is not shown costs nothing.
+// Two views in one document: the laboratory and the paper's figures. The figures are loaded when they are first shown.
 import { hashOf, type PageOptions } from '../address'
 import { el } from '../dom'
+import { loadFigures } from '../later'
 import type { Session } from '../session'
 import { text } from '../text'
-import { figuresView } from './figures'
 
 export interface Doors {
   /** The link to the other view. */
@@ -13,6 +13,7 @@ export interface Doors {
 
 export function doors(session: Session, place: HTMLElement): Doors {
   let figures: HTMLElement | null = null
+  let loaded = false
   const open = () => document.body.dataset.view === 'figures'
   const link = el('a', { class: 'button', id: 'open-figures', href: '#view=figures' }, text.header.figures)
   link.addEventListener('click', event => {
@@ -26,10 +27,18 @@ export function doors(session: Session, place: HTMLElement): Doors {
     link.href = open() ? '#view=lab' : '#view=figures'
     if (!open()) return
     session.pause()
-    if (figures) return
-    figures = el('main', { id: 'figures' })
-    place.append(figures)
-    figures.replaceChildren(...(await figuresView(session)))
+    figures ??= place.appendChild(el('main', { id: 'figures' }))
+    if (loaded) return
+    loaded = true
+    try {
+      const { figuresView } = await loadFigures()
+      figures.replaceChildren(...(await figuresView(session)))
+    } catch (e) {
+      // Whoever comes back tries again.
+      loaded = false
+      const why = e instanceof Error ? e.message : String(e)
+      figures.replaceChildren(el('p', { role: 'alert' }, `${text.trouble.title}: ${why}`))
+    }
   }
   return { link, show }
 }

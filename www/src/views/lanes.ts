@@ -2,22 +2,22 @@
 import { el } from '../dom'
 import type { Session } from '../session'
 import { text } from '../text'
-import { chart, palette } from './chart'
+import { chart, most, palette } from './chart'
 
 const t = text.lanes
 
 export function lanesView(session: Session): HTMLElement {
   const counts = el('div', { class: 'note', style: 'margin:0;text-align:left' })
-  const imbalance = chart(t.imbalanceChart)
-  const flow = chart(t.flowChart)
+  const imbalance = chart(t.imbalanceChart, '', 0)
+  const flow = chart(t.flowChart, '', 0)
   const flowTitle = el('h3')
   const several = el('div', { class: 'stack' }, el('h3', {}, t.imbalance), imbalance.element)
-  const element = el('div', {}, counts, several, flowTitle, flow.element)
+  const element = el('div', {}, counts, several, el('div', { class: 'stack' }, flowTitle, flow.element))
   imbalance.element.style.minHeight = flow.element.style.minHeight = '80px'
   const dress = () => {
     const colours = palette(session.view.dark)
-    imbalance.restyle([{ label: t.imbalance, colour: colours[0]!, width: 2 }])
-    flow.restyle([{ label: t.flowChart, colour: colours[1]!, width: 2 }])
+    imbalance.restyle([{ label: t.symbol, colour: colours[0]!, width: 2 }])
+    flow.restyle([{ label: t.flowName, colour: colours[1]!, width: 2 }])
   }
   const draw = () => {
     if (element.hidden) return
@@ -25,8 +25,8 @@ export function lanesView(session: Session): HTMLElement {
     const window = session.window()
     const perHour = q.map(v => (v === null ? null : v * 3600))
     const { lanes } = session.snapshot.scenario
-    imbalance.show([time, delta], window, 0, Math.max(4, ...delta) * 1.05)
-    flow.show([time, perHour], window, 0, Math.max(1000, ...perHour.map(v => v ?? 0)) * 1.1)
+    imbalance.show(time, [delta], window, 0, Math.max(4, most(delta)) * 1.05)
+    flow.show(time, [perHour], window, 0, Math.max(1000, most(perHour)) * 1.1)
     const { lanes: where, laneChanges } = session.frame
     const each = Array.from({ length: lanes }, () => 0)
     for (const lane of where) each[lane]!++
@@ -46,10 +46,7 @@ export function lanesView(session: Session): HTMLElement {
     draw()
   })
   new MutationObserver(() => {
-    if (!element.hidden) {
-      dress()
-      if (session.frame) draw()
-    }
+    if (session.frame) draw()
   }).observe(element, { attributeFilter: ['hidden'] })
   return element
 }

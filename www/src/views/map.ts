@@ -4,19 +4,10 @@ import { card, el } from '../dom'
 import { fixed } from '../format'
 import type { Session } from '../session'
 import { text } from '../text'
+import { roundSteps } from './axes'
 import { legendView } from './legend'
 
 const t = text.map
-
-/** Round numbers between two ends, at most so many steps apart. */
-export function roundSteps(low: number, high: number, most: number): number[] {
-  const rough = (high - low) / most
-  const power = 10 ** Math.floor(Math.log10(rough))
-  const step = [1, 2, 3, 5, 6, 10].map(k => k * power).find(s => s >= rough) ?? 10 * power
-  const steps = []
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) steps.push(k * step + 0)
-  return steps
-}
 
 export async function mapView(session: Session): Promise<HTMLElement> {
   const { columns, bins } = session.start.map
@@ -63,7 +54,9 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     visible = window / interval
     canvas.style.width = `${(100 * columns) / visible}%`
     const most = Math.max(3, Math.floor(picture.clientWidth / 85))
-    const times = roundSteps(start, start + window, most).filter(time => time - start < window * 0.93)
+    // Up to where the axis' name stands, px.
+    const free = 1 - 75 / picture.clientWidth
+    const times = roundSteps(start, start + window, most).filter(time => time - start < window * free)
     x.replaceChildren(
       ...times.map(time => el('span', { style: `left:${(100 * (time - start)) / window}%` }, fixed(time, 1))),
       el('span', { class: 'name', style: 'left:auto;right:0;transform:none' }, t.time),

@@ -2,8 +2,7 @@
 import { drawing, el, style } from '../dom'
 import type { ModesGrowth, Roots } from '../shared/protocol'
 import { text } from '../text'
-import { axes, frame, say, ticks, word } from './axes'
-import { roundSteps } from './map'
+import { axes, frame, roundSteps, say, ticks, word } from './axes'
 
 const t = text.modes
 

@@ -4,11 +4,10 @@ import { drawing, el, style } from '../dom'
 import type { Session } from '../session'
 import type { Curves, Plane, Verdict } from '../shared/protocol'
 import { text } from '../text'
-import { type Frame, axes, frame, spot, ticks, word } from './axes'
+import { type Frame, axes, frame, roundSteps, spot, ticks, word } from './axes'
 import { keys } from './chart'
 import { valueOf } from './controls'
 import { TO, colour, growthMap, rateAt } from './growth'
-import { roundSteps } from './map'
 
 const t = text.plane
 /** After the last key, ms: a row of keys is one setting. */
@@ -297,7 +296,6 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
       { label: t.continuous(continuous!), colour: 'var(--accent)', dash: [8, 8] },
       { label: t.newell(newell!), colour: 'var(--soft)', dash: [2, 5] },
     ])
-    ;(names.lastElementChild as HTMLElement).style.setProperty('--dash', 'dotted')
     lines.replaceChildren(names)
   }
   const draw = () => {

@@ -42,7 +42,8 @@ export function rootsView() {
       return
     }
     const low = log(Math.min(-0.1, ...all.map(r => r.re)) * 1.5, REAL)
-    const high = log(Math.max(0.1, ...all.map(r => r.re)) * 1.5, REAL)
+    // Room for the word beside the axis.
+    const high = log(Math.max(0.1, ...all.map(r => r.re)) * 3, REAL)
     const top = log(Math.max(1, ...all.map(r => r.im)) * 1.4, IMAGINARY)
     const x = (re: number) => f.left + ((f.right - f.left) * (log(re, REAL) - low)) / (high - low)
     const y = (im: number) => f.bottom - ((f.bottom - f.top) * log(im, IMAGINARY)) / top

@@ -2,13 +2,13 @@
 import { card, style } from '../dom'
 import type { Session } from '../session'
 import { text } from '../text'
-import { type Line, chart, keys, palette } from './chart'
+import { type Line, chart, keys, most, palette } from './chart'
 
 const t = text.speeds
 const DASHES = [undefined, [10, 3], [4, 3], [12, 3, 3, 3], [2, 2]]
 
 export function speedsView(session: Session): HTMLElement {
-  const plot = chart(t.chart)
+  const plot = chart(t.chart, t.unit, 2)
   let names = keys([])
   const { card: section, note } = card('speeds', t.title, plot.element, names)
   const dress = () => {
@@ -26,9 +26,9 @@ export function speedsView(session: Session): HTMLElement {
   const draw = () => {
     const { time, speeds } = session.series
     const { mean_equilibrium_speed: rest } = session.snapshot
-    const top = Math.max(4, 2 * rest, ...speeds.map(s => s.at(-1) ?? 0))
-    highest = Math.max(highest, Math.ceil(top / 2) * 2)
-    plot.show([time, ...speeds, time.map(() => rest)], session.window(), 0, highest)
+    // Never lower than before within a run: a wave that leaves the window does not rescale it.
+    highest = Math.ceil(Math.max(4, 2 * rest, highest, ...speeds.map(most)) / 2) * 2
+    plot.show(time, [...speeds, rest], session.window(), 0, highest)
   }
   let highest = 0
   let epoch = -1
@@ -47,7 +47,7 @@ export function speedsView(session: Session): HTMLElement {
       highest = 0
       rows = -1
     }
-    // A chart costs more than a frame; it is drawn when there is something new in it.
+    // Drawn when there is something new in it.
     const last = session.series.time.at(-1) ?? -1
     if (last === rows) return
     rows = last
