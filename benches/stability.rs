@@ -11,8 +11,7 @@ mod cases {
     use criterion::Criterion;
     use ringroad::scenario::Scenario;
     use ringroad::stability::calm::{calm_with, parse_changes};
-    use ringroad::stability::equal::Time;
-    use ringroad::stability::plane::{critical_of_modes, curves, growth_rates};
+    use ringroad::stability::plane::Plane;
     use ringroad::stability::report::Report;
     use std::hint::black_box;
 
@@ -40,19 +39,22 @@ mod cases {
             });
         }
         let scenario = scenario(50, &[]);
-        criterion.bench_function("curves of the plane, every mode, N = 2 … 133", |b| {
+        let plane = Plane::of(&scenario);
+        let numbers: Vec<_> = (2..=133).collect();
+        criterion.bench_function("curves of the plane, every mode, both times, N = 2 … 133", |b| {
             b.iter(|| {
-                let modes: Vec<_> = (2..=133).map(|n| critical_of_modes(&scenario, n)).collect();
-                black_box((curves(&scenario, 2..=133), modes))
+                let of_mode = |q| [false, true].map(|t| plane.critical_of_mode(q, &numbers, plane.time(t)));
+                let modes: Vec<_> = (1..=66).map(of_mode).collect();
+                black_box((plane.curves(numbers.iter().copied()), modes))
             });
         });
-        let delays: Vec<_> = (0..200).map(|k| f64::from(k) * 0.0075).collect();
-        for (name, time) in [("continuous", Time::Continuous), ("in steps", Time::Steps(0.01))] {
+        for in_steps in [false, true] {
+            let name = if in_steps { "in steps" } else { "continuous" };
             criterion.bench_function(&format!("map of growth rates, N = 2 … 133 by 200, {name}"), |b| {
                 b.iter(|| {
-                    (2..=133)
-                        .map(|n| growth_rates(&scenario, n, black_box(&delays), time))
-                        .collect::<Vec<_>>()
+                    let delays = || (0..200).map(|k| f64::from(black_box(k)) * 0.0075);
+                    let row = |&n: &usize| plane.growth_rates(n, delays(), plane.time(in_steps));
+                    numbers.iter().map(row).collect::<Vec<_>>()
                 });
             });
         }

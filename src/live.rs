@@ -12,6 +12,7 @@ use crate::probe::Probe;
 use crate::probe::growth::{Growth as Modal, Linear};
 use crate::scenario::{Scenario, assign};
 use crate::simulation::Simulation;
+use crate::stability::plane::Plane;
 use crate::stability::report::{Roots, roots_of_lane};
 use crate::table::Table;
 use crate::verdict::{self, Verdict, verdict};
@@ -63,6 +64,8 @@ pub struct Growth {
     pub rate: f64,
     /// Of the slope, 1/s.
     pub standard_error: f64,
+    /// How far what is not linear in waves of this size may have moved the slope, 1/s.
+    pub nonlinear_bound: f64,
     /// Seconds looked back.
     pub window: f64,
     /// Which Fourier mode of the headways.
@@ -93,8 +96,9 @@ pub struct Live {
     /// Rows not yet taken: time, mean speed, flow, ΔN, speeds of the watched.
     rows: Vec<f64>,
     crossings: VecDeque<f64>,
-    /// Time and ln|amplitude| of the fastest wave while it is small.
-    amplitudes: VecDeque<(f64, f64)>,
+    /// Time and ln|amplitude| of the fastest wave while it is small, and the bound of what is not linear in its
+    /// growth then, 1/s.
+    amplitudes: VecDeque<(f64, f64, f64)>,
     /// Whether waves are too large for linear theory now.
     large: bool,
     /// Growth of every mode of the verdict's lane since the last change; none until theory was asked.
@@ -382,14 +386,22 @@ impl Live {
         let (mut turn, mut sum) = ((1.0, 0.0), (0.0, 0.0));
         // The largest deviation as a part of the gap to the minimum headway.
         let mut largest = 0.0_f64;
+        // As in the table of growth.
+        let (mut second_order, mut slope) = (0.0, 0.0_f64);
         for &j in lane {
-            let rest = s.driver(j).headway(self.verdict.equilibrium.speed);
+            let driver = s.driver(j);
+            let rest = driver.headway(self.verdict.equilibrium.speed);
             let deviation = s.headway(j) - rest;
-            largest = largest.max(deviation.abs() / (rest - s.driver(j).min_headway));
+            largest = largest.max(deviation.abs() / (rest - driver.min_headway));
+            second_order += driver.sensitivity / driver.max_speed * deviation * deviation;
+            slope = slope.max(driver.slope(rest));
             sum = (sum.0 + deviation * turn.0, sum.1 + deviation * turn.1);
             turn = (turn.0 * cos - turn.1 * sin, turn.0 * sin + turn.1 * cos);
         }
         let amplitude = libm::hypot(sum.0, sum.1) / lane.len() as f64;
+        let twice = if 2 * mode == lane.len() { 1.0 } else { 2.0 };
+        let share = second_order / lane.len() as f64 / (twice * amplitude);
+        let bound = 2.0 * slope * libm::sin(-0.5 * angle) * share;
         if amplitude < ROUNDING {
             self.amplitudes.clear();
             return;
@@ -403,7 +415,7 @@ impl Live {
         if self.large {
             return;
         }
-        self.amplitudes.push_back((self.simulation.time(), libm::log(amplitude)));
+        self.amplitudes.push_back((self.simulation.time(), libm::log(amplitude), bound));
         while self.amplitudes.front().is_some_and(|a| a.0 < self.simulation.time() - GROWTH_WINDOW) {
             self.amplitudes.pop_front();
         }
@@ -427,11 +439,15 @@ impl Live {
         let tt: f64 = self.amplitudes.iter().map(|a| (a.0 - t) * (a.0 - t)).sum();
         let ty: f64 = self.amplitudes.iter().map(|a| (a.0 - t) * (a.1 - y)).sum();
         let rate = ty / tt;
-        let rest = |a: &(f64, f64)| a.1 - y - rate * (a.0 - t);
+        let rest = |a: &(f64, f64, f64)| a.1 - y - rate * (a.0 - t);
         let squares: f64 = self.amplitudes.iter().map(|a| rest(a) * rest(a)).sum();
+        let (first, last) = (self.amplitudes.front()?.0, self.amplitudes.back()?.0);
+        let weight = |a: &(f64, f64, f64)| (a.0 - first) * (last - a.0);
+        let bounds: f64 = self.amplitudes.iter().map(|a| weight(a) * a.2).sum();
         Some(Growth {
             rate,
             standard_error: libm::sqrt(squares / (n - 2.0) / tt),
+            nonlinear_bound: bounds / self.amplitudes.iter().map(weight).sum::<f64>(),
             window,
             mode: self.verdict.mode?,
         })
@@ -526,12 +542,23 @@ impl Live {
         Ok(verdict(&lanes, scenario.length, scenario.time_step))
     }
 
-    /// What theory would say with so many vehicles at that reaction time, both as typed.
-    pub fn preview_point(&self, vehicles: &str, reaction_time: &str) -> Result<Verdict, Invalid> {
-        if vehicles.parse() == Ok(self.simulation.vehicles()) {
-            return self.preview("reaction_time", reaction_time);
+    /// What theory would say at that reaction time with so many vehicles on all lanes, both as typed; without a number,
+    /// with the vehicles in the lanes where they are now.
+    pub fn preview_point(&self, vehicles: Option<&str>, reaction_time: &str) -> Result<Verdict, Invalid> {
+        match vehicles {
+            None => self.preview("reaction_time", reaction_time),
+            Some(n) => Self::new(&self.with("vehicles", n)?)?.preview("reaction_time", reaction_time),
         }
-        Self::new(&self.with("vehicles", vehicles)?)?.preview("reaction_time", reaction_time)
+    }
+
+    /// The stability plane of the lane that the verdict speaks of: of its drivers where they are alike, else of
+    /// those without an exception. Its driver has the reaction time where the lane stands in the plane.
+    pub fn plane(&mut self) -> Plane {
+        let &Verdict { alike, lane, .. } = self.verdict();
+        let settled = self.settled();
+        let first = (0..self.simulation.vehicles()).find(|&j| alike && self.simulation.lane(j) + 1 == lane);
+        let driver = first.map_or(settled.driver, |j| *self.simulation.driver(j));
+        Plane { driver, ..Plane::of(&settled) }
     }
 
     /// The same scenario from its beginning, with all its actions, or with those at t = 0 only.
@@ -591,7 +618,33 @@ mod tests {
                 "{growth:?}, predicted {predicted}"
             );
             assert_eq!(growth.window, GROWTH_WINDOW);
+            assert!((growth.rate - predicted).abs() < growth.nonlinear_bound + 3.0 * growth.standard_error);
+            assert!(growth.nonlinear_bound > 0.0 && growth.nonlinear_bound < 0.1 * predicted.abs());
         }
+    }
+
+    /// With several lanes the plane is of the lane that the verdict speaks of, and a point of it says what the run does
+    /// that is started there.
+    #[test]
+    fn plane_and_verdict_speak_of_the_same_lane() {
+        let mut live = run("vehicles=50&lanes=2&reaction-time=0.75", 0.0);
+        let verdict = *live.verdict();
+        let tau = live.plane().curves([verdict.vehicles]).discrete_s[0];
+        assert_eq!((verdict.lane, verdict.vehicles, verdict.critical_discrete), (1, 25, tau));
+        let foreseen = live.preview_point(Some("80"), "0.9").unwrap();
+        assert_eq!((foreseen.vehicles, foreseen.stable), (40, Some(false)));
+        live.set("reaction-time", "0.9").unwrap();
+        live.set("vehicles", "80").unwrap();
+        assert_eq!(foreseen, *live.verdict());
+
+        // A lane of exceptions only has a plane of its own; a lane that is mixed has that of the others.
+        let mut live = run("vehicles=50&lanes=2&driver=1-25:sensitivity=2,reaction-time=0.4", 0.0);
+        let (verdict, driver) = (*live.verdict(), live.plane().driver);
+        assert_eq!((verdict.lane, verdict.alike), (1, true));
+        assert_eq!((driver.sensitivity, driver.reaction_time), (2.0, 0.4));
+        let mut live = run("reaction-time=0.7&driver=1-25:sensitivity=2,reaction-time=0.4", 0.0);
+        assert!(!live.verdict().alike);
+        assert_eq!((live.plane().driver.sensitivity, live.plane().driver.reaction_time), (1.0, 0.7));
     }
 
     #[test]

@@ -26,6 +26,8 @@ pub struct Verdict {
     pub equilibrium: Equilibrium,
     /// Lane, from 1.
     pub lane: usize,
+    /// Vehicles in it.
+    pub vehicles: usize,
 }
 
 impl Default for Verdict {
@@ -42,6 +44,7 @@ impl Default for Verdict {
             mode: None,
             equilibrium: Equilibrium { speed: 0.0, density: 0.0, flow: 0.0 },
             lane: 1,
+            vehicles: 0,
         }
     }
 }
@@ -67,6 +70,7 @@ pub fn verdict(lanes: &[Vec<Driver>], length: f64, time_step: f64) -> Verdict {
         equilibrium: equilibrium(&lanes[report.lane - 1].drivers, length)
             .unwrap_or(Verdict::default().equilibrium),
         lane: report.lane,
+        vehicles: report.vehicles,
     }
 }
 

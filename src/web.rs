@@ -248,7 +248,7 @@ impl Lab {
     }
     /// The growth measured so far as JSON, or `null`.
     pub fn growth(&self) -> String {
-        let one = |g: crate::live::Growth| json!({ "rate": g.rate, "standard_error": g.standard_error, "window": g.window, "mode": g.mode });
+        let one = |g: crate::live::Growth| json!({ "rate": g.rate, "standard_error": g.standard_error, "nonlinear_bound": g.nonlinear_bound, "window": g.window, "mode": g.mode });
         Value::from(self.live.growth().map(one)).to_string()
     }
 
@@ -410,6 +410,7 @@ fn verdict(v: &Verdict) -> Value {
         "flow": v.equilibrium.flow,
         "density": v.equilibrium.density,
         "lane": v.lane,
+        "vehicles": v.vehicles,
     })
 }
 

@@ -79,6 +79,32 @@ fn roots_come_mode_by_mode() {
     assert!(mixed["roots"].as_array().unwrap().len() >= 25);
 }
 
+/// The run's own roots stand beside those of continuous time: each solves the difference equation, z^m·(z − 1) = dt·d_q.
+#[test]
+fn roots_of_the_run_come_too() {
+    let alike: &[&str] = &["--reaction-time", "0.75"];
+    let coarse = &["--reaction-time", "0.8", "--time-step", "0.1", "--vehicles", "20"];
+    let differ = &["--reaction-time", "0.75", "--driver", "1-9:reaction-time=0.3,sensitivity=1.2"];
+    for (scenario, modes, per_mode) in [(alike, 25, 4), (coarse, 10, 4), (differ, 25, 4)] {
+        let report = json(&[scenario, &["--roots", "4"]].concat());
+        let roots = report["roots_discrete"].as_array().unwrap();
+        assert_eq!(roots.len(), modes * per_mode, "{scenario:?}");
+        let number = |root: &Value, name: &str| root[name].as_f64().unwrap();
+        let dt = if modes == 10 { 0.1 } else { 0.01 };
+        for root in roots {
+            assert!(number(root, "residual") < 1e-10, "{root}");
+            let size = libm::hypot(number(root, "factor_real"), number(root, "factor_imaginary"));
+            assert!((libm::log(size) / dt - number(root, "real_per_s")).abs() < 1e-9, "{root}");
+        }
+        let rates: Vec<_> = roots.iter().map(|root| number(root, "real_per_s")).collect();
+        assert!(rates.chunks(per_mode).all(|mode| mode.windows(2).all(|w| w[1] <= w[0])), "{scenario:?}");
+        let largest = rates.iter().copied().fold(f64::MIN, f64::max);
+        assert_eq!(report["max_growth_rate_discrete_per_s"].as_f64().unwrap(), largest);
+    }
+    let words = answer(&["--reaction-time", "0.75", "--roots", "1"]);
+    assert!(words.contains("\ncontinuous time\n") && words.contains("\nin steps of 0.01 s"), "{words}");
+}
+
 #[test]
 fn a_sweep_is_a_table() {
     let csv = answer(&["--sweep", "vehicles=2:133"]);

@@ -304,6 +304,16 @@ fn a_disturbed_lane_ends_the_linear_window() {
         let t = table(&disturbed, r#"{"table":"growth","modes":1}"#);
         assert_eq!((t.floats("to_s").unwrap()[0], ends(&t).as_str()), (29.5, "disturbed"), "{action}");
     }
+    // Hard by the jam a nudge that is small in itself makes somebody stand, where the law has a kink.
+    let dense = Scenario { vehicles: 133, ..delayed(0.0, 60.0) };
+    for (nudge, stands) in [("0.01", false), ("0.1", true)] {
+        let t = table(
+            &with_actions(dense.clone(), &[&format!("at=0:1:nudge={nudge}")]),
+            r#"{"table":"growth","modes":1}"#,
+        );
+        let begins = t.floats("from_s").unwrap()[0];
+        assert_eq!(begins > 0.0, stands, "{nudge} m: linear from {begins} s");
+    }
     let large = with_actions(delayed(0.75, 60.0), &["at=0:1:nudge=10"]);
     assert_eq!(ends(&table(&large, r#"{"table":"growth"}"#)), "never in the linear regime");
 }

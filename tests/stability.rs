@@ -90,6 +90,42 @@ fn every_mode_grows_as_the_difference_equation_says() {
     assert!(compared > 150 && left_out * 5 < compared + left_out);
 }
 
+/// Where waves are not tiny, the bound of the table of growth holds: a nudge of 1 m on either side of the threshold, near it too.
+#[test]
+fn the_size_of_the_waves_moves_a_growth_rate_by_less_than_its_bound() {
+    let linear = Linear { smallest: 1e-8, nonlinearity: 0.01 };
+    let (mut compared, mut telling) = (0, 0);
+    for reaction_time in [0.5, 0.6, 0.66, 0.7, 0.75, 0.8] {
+        for nudge in [0.1, 0.3, 1.0] {
+            let mut scenario = Scenario { until: 200.0, ..Scenario::default() };
+            scenario.driver.reaction_time = reaction_time;
+            scenario.actions.push(format!("at=0:1:nudge={nudge}").parse().unwrap());
+            let from = scenario.steps(20.0 * reaction_time);
+            let mut probes: [Box<dyn Probe>; 1] = [Box::new(Growth::new(50, 10, 0, from, linear))];
+            measure(&mut Simulation::new(&scenario).unwrap(), &mut probes, &mut |_| true);
+            let t = probes[0].table();
+            let column = |name: &str| t.floats(name).unwrap();
+            for k in 0..10 {
+                let (rate, predicted) = (column("growth_rate_per_s")[k], column("predicted_per_s")[k]);
+                let (error, bound) = (column("standard_error_per_s")[k], column("nonlinear_bound_per_s")[k]);
+                if rate.is_nan() || error.is_nan() {
+                    continue;
+                }
+                compared += 1;
+                let difference = (rate - predicted).abs();
+                telling += usize::from(difference > 3.0 * error);
+                assert!(
+                    difference <= bound + 3.0 * error,
+                    "Δ = {reaction_time} s, nudge {nudge} m, mode {}: {rate} ± {error}, theory {predicted}, bound {bound}",
+                    k + 1
+                );
+            }
+        }
+    }
+    println!("{compared} growth rates compared; {telling} differ by more than three standard errors");
+    assert!(compared > 120 && telling > 40);
+}
+
 /// A ring with exceptions that starts in equilibrium (the nudges lead there from equal headways), but for
 /// displacements of some micrometres, different for everybody, so that every mode is excited.
 fn mixed(vehicles: usize, reaction_time: f64, exceptions: &[String]) -> Scenario {
@@ -168,6 +204,17 @@ fn dominant(scenario: &Scenario) -> (Mode, f64, f64) {
     (fastest, line.slope, line.slope_error)
 }
 
+/// Vehicles, reaction time (s) of most of them, and how many have what instead.
+const CASES: [(usize, f64, usize, &str); 7] = [
+    (50, 0.75, 4, "reaction-time=0"),
+    (51, 0.75, 10, "reaction-time=0.2"),
+    (50, 0.6, 25, "reaction-time=0.9"),
+    (51, 0.6, 10, "sensitivity=2"),
+    (50, 0.8, 15, "sensitivity=0.5"),
+    (33, 0.7, 8, "sensitivity=1.5,reaction-time=0.5"),
+    (50, 0.65, 12, "sensitivity=1.6,reaction-time=0.8,max-speed=35,min-headway=9"),
+];
+
 /// Numbers of `count` vehicles among `vehicles`: side by side, or spread out.
 fn who(count: usize, vehicles: usize, in_a_block: bool, values: &str) -> Vec<String> {
     if in_a_block {
@@ -178,15 +225,7 @@ fn who(count: usize, vehicles: usize, in_a_block: bool, values: &str) -> Vec<Str
 
 #[test]
 fn the_dominant_mode_of_mixed_rings_grows_as_the_product_equation_says() {
-    for (vehicles, reaction_time, count, values) in [
-        (50, 0.75, 4, "reaction-time=0"),
-        (51, 0.75, 10, "reaction-time=0.2"),
-        (50, 0.6, 25, "reaction-time=0.9"),
-        (51, 0.6, 10, "sensitivity=2"),
-        (50, 0.8, 15, "sensitivity=0.5"),
-        (33, 0.7, 8, "sensitivity=1.5,reaction-time=0.5"),
-        (50, 0.65, 12, "sensitivity=1.6,reaction-time=0.8,max-speed=35,min-headway=9"),
-    ] {
+    for (vehicles, reaction_time, count, values) in CASES {
         for in_a_block in [true, false] {
             let scenario = mixed(vehicles, reaction_time, &who(count, vehicles, in_a_block, values));
             let (mode, rate, error) = dominant(&scenario);
@@ -199,6 +238,51 @@ fn the_dominant_mode_of_mixed_rings_grows_as_the_product_equation_says() {
             );
         }
     }
+}
+
+/// Beside Fourier mode q the table of growth has the root that is followed from mode q of equal drivers. Drivers
+/// spread over the ring: right for the dominant mode and all that grow. In one block: for the dominant mode,
+/// with a wide standard error; a mode that grows slowly is drowned by the fast ones, which half a ring of slow drivers shows.
+#[test]
+fn fourier_modes_of_mixed_rings_follow_the_roots_of_their_own_number() {
+    let linear = Linear { smallest: 1e-10, nonlinearity: 1e-2 };
+    let table = |scenario: &Scenario| {
+        let from = scenario.steps(60.0);
+        let mut probes: [Box<dyn Probe>; 1] = [Box::new(Growth::new(50, 16, 0, from, linear))];
+        measure(&mut Simulation::new(scenario).unwrap(), &mut probes, &mut |_| true);
+        probes[0].table()
+    };
+    let (mut compared, mut sharp) = (0, 0);
+    for (vehicles, reaction_time, count, values) in CASES {
+        for in_a_block in [true, false] {
+            let scenario = mixed(vehicles, reaction_time, &who(count, vehicles, in_a_block, values));
+            let t = table(&scenario);
+            let column = |name: &str| t.floats(name).unwrap();
+            let (rates, errors) = (column("growth_rate_per_s"), column("standard_error_per_s"));
+            let predicted = column("predicted_per_s");
+            let report = Report::of(&scenario);
+            let fastest = report.fastest_mode_discrete.unwrap();
+            let largest = report.max_growth_rate_discrete_per_s.unwrap();
+            assert!((predicted[fastest - 1] - largest).abs() < 1e-12);
+            for q in 1..=16 {
+                let (rate, error, theory) = (rates[q - 1], errors[q - 1], predicted[q - 1]);
+                if q != fastest && (in_a_block || theory < 0.0) {
+                    continue;
+                }
+                compared += 1;
+                sharp += usize::from(error < 0.1 * theory.abs());
+                assert!(
+                    agrees(rate, error, theory),
+                    "{values}, {count} of {vehicles}, block {in_a_block}, mode {q}: {rate} ± {error}, theory {theory}"
+                );
+            }
+        }
+    }
+    println!("{compared} growth rates compared, {sharp} of them to better than a tenth");
+    assert!(compared > 40 && 2 * sharp > compared);
+    let drowned = table(&mixed(50, 0.6, &who(25, 50, true, "reaction-time=0.9")));
+    let first = |name: &str| drowned.floats(name).unwrap()[0];
+    assert!(first("growth_rate_per_s") > 10.0 * first("predicted_per_s"));
 }
 
 /// The classroom's question: at N = 50, Δ = 0.75 s five drivers without delay calm the ring and four do not, wherever

@@ -8,9 +8,10 @@ use ringroad::error::Invalid;
 use ringroad::scenario::Scenario;
 use ringroad::stability::calm::{Calming, calm_with, parse_changes};
 use ringroad::stability::equal::Time;
+use ringroad::stability::factors::Factor;
 use ringroad::stability::inverse::{most_vehicles, stable_sensitivities, stable_vehicles};
 use ringroad::stability::plane::{Sweep, sweep};
-use ringroad::stability::report::{ModeRoot, Report, leading_roots};
+use ringroad::stability::report::{ModeRoot, Report, leading_factors, leading_roots};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -19,33 +20,31 @@ use std::process::ExitCode;
 pub(crate) const SUBCOMMAND: Subcommand = Subcommand { define, run };
 
 fn define() -> Command {
-    let command = Command::new("stability")
-        .about("Linear stability of a scenario: critical reaction time, growth rates, the fastest wave")
-        .after_help(
-            "Examples: ringroad stability --reaction-time 0.75 --calm-with reaction-time=0\n          \
+    let command =
+        Command::new("stability")
+            .about("Linear stability of a scenario: critical reaction time, growth rates, the fastest wave")
+            .after_help(
+                "Examples: ringroad stability --reaction-time 0.75 --calm-with reaction-time=0\n          \
              ringroad stability --sweep vehicles=2:133 --out tau.csv",
-        )
-        .arg(output::option())
-        .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("As JSON"))
-        .arg(
-            Arg::new("sweep")
-                .long("sweep")
-                .value_name("PARAMETER=FROM:TO[:STEP]")
-                .conflicts_with_all(["json", "roots", "calm-with"])
-                .help("A table over the values of a parameter as CSV, such as vehicles=2:133"),
-        )
-        .arg(
-            Arg::new("roots")
-                .long("roots")
-                .value_name("K")
-                .help("Add the K leading characteristic roots of every mode (continuous time)"),
-        )
-        .arg(
-            Arg::new("calm-with")
-                .long("calm-with")
-                .value_name("PARAMETER=VALUE,…")
-                .help("How many drivers, so changed, calm the ring? Such as reaction-time=0"),
-        );
+            )
+            .arg(output::option())
+            .arg(Arg::new("json").long("json").action(ArgAction::SetTrue).help("As JSON"))
+            .arg(
+                Arg::new("sweep")
+                    .long("sweep")
+                    .value_name("PARAMETER=FROM:TO[:STEP]")
+                    .conflicts_with_all(["json", "roots", "calm-with"])
+                    .help("A table over the values of a parameter as CSV, such as vehicles=2:133"),
+            )
+            .arg(Arg::new("roots").long("roots").value_name("K").help(
+                "Add the K leading characteristic roots of every mode, in continuous time and in steps",
+            ))
+            .arg(
+                Arg::new("calm-with")
+                    .long("calm-with")
+                    .value_name("PARAMETER=VALUE,…")
+                    .help("How many drivers, so changed, calm the ring? Such as reaction-time=0"),
+            );
     scenario_options(command)
 }
 
@@ -62,6 +61,9 @@ struct Answer {
     calming: Option<Calming>,
     #[serde(skip_serializing_if = "Option::is_none")]
     roots: Option<Vec<ModeRoot>>,
+    /// The same of the simulation, with the growth factors z of a step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roots_discrete: Option<Vec<Factor>>,
 }
 
 fn answer(scenario: &Scenario, calm: Option<&String>, roots: Option<usize>) -> Result<Answer, Failure> {
@@ -85,6 +87,7 @@ fn answer(scenario: &Scenario, calm: Option<&String>, roots: Option<usize>) -> R
         ),
         calming,
         roots: roots.map(|count| leading_roots(scenario, report.lane - 1, count)),
+        roots_discrete: roots.map(|count| leading_factors(scenario, report.lane - 1, count)),
         report,
     })
 }
@@ -191,7 +194,7 @@ fn in_words(scenario: &Scenario, answer: &Answer) -> String {
     if let Some(roots) = &answer.roots {
         let _ = writeln!(
             text,
-            "\n{:>6}{:>8}{:>16}{:>16}{:>12}",
+            "\ncontinuous time\n{:>6}{:>8}{:>16}{:>16}{:>12}",
             "mode", "branch", "real (1/s)", "imaginary", "residual"
         );
         for root in roots {
@@ -199,6 +202,26 @@ fn in_words(scenario: &Scenario, answer: &Answer) -> String {
                 text,
                 "{:>6}{:>8}{:>16.9}{:>16.9}{:>12.1e}",
                 root.mode, root.branch, root.real_per_s, root.imaginary_per_s, root.residual
+            );
+        }
+    }
+    if let Some(roots) = &answer.roots_discrete {
+        let _ = writeln!(
+            text,
+            "\nin steps of {} s: factors z of a step, and ln(z)/dt\n{:>6}{:>8}{:>16}{:>16}{:>14}{:>14}{:>12}",
+            scenario.time_step, "mode", "branch", "real (1/s)", "imaginary", "Re z", "Im z", "residual"
+        );
+        for root in roots {
+            let _ = writeln!(
+                text,
+                "{:>6}{:>8}{:>16.9}{:>16.9}{:>14.9}{:>14.9}{:>12.1e}",
+                root.mode,
+                root.branch,
+                root.real_per_s,
+                root.imaginary_per_s,
+                root.factor_real,
+                root.factor_imaginary,
+                root.residual
             );
         }
     }

@@ -10,13 +10,25 @@
 //! comes to some 10⁻¹¹ m), or where the lane is disturbed: by an action, or by a vehicle that changes
 //! lanes. In the window a mode of equal drivers is one complex exponential, as soon as what the start excited beside
 //! the leading root has died away.
+//!
+//! Waves that count as small may still be large enough to be seen in the slope. So each slope comes with the bound that
+//! the share sets: its mean over the window, with the weight t(T − t) that a constant addition to the rate at time t has
+//! in the slope of a straight line.
+//!
+//! Drivers that differ: the ring's own modes are no longer Fourier's. Beside Fourier mode q stands the root that is
+//! followed from mode q of equal drivers. Where each kind is spread over the ring, that is the rate measured, but for
+//! modes that fade much faster than others and are drowned by them. Where a kind drives in a block, a Fourier
+//! mode is a mixture of several exponentials: its standard error is large, and its slope tends to the fastest growth rate.
 
 use super::spectrum::Spectrum;
 use super::{Due, Probe, Schedule};
 use crate::fit;
 use crate::simulation::Simulation;
-use crate::stability::equal::{EqualRing, Time};
+use crate::stability::equal::Time;
+use crate::stability::ring::Ring;
 use crate::table::{Column, Table};
+use std::cell::OnceCell;
+use std::f64::consts::PI;
 use std::ops::Range;
 
 /// The probe of the table `growth`.
@@ -31,9 +43,32 @@ pub struct Growth {
     /// (λ/V)·mean(δ²), m; NaN where the lane was disturbed since the row before.
     second_order: Vec<f64>,
     amplitudes: Vec<Vec<f64>>,
-    /// The lane and its delay in force (s) at every row, where the drivers are equal.
-    theory: Vec<Option<(EqualRing, f64)>>,
+    /// The lane with its delays in force: at every row the place in the list of those that there were.
+    lanes: Vec<usize>,
+    theories: Vec<Theory>,
     time_step: f64,
+}
+
+/// A lane as linear theory sees it; the growth rates (1/s) of its modes are computed when they are first asked for.
+#[derive(Clone, Debug)]
+struct Theory {
+    ring: Ring,
+    rates: OnceCell<Vec<f64>>,
+}
+
+impl Theory {
+    /// Growth rates of modes 1 … `modes` in steps of `time_step` seconds; NaN where there is no such mode, or where
+    /// its root cannot be followed.
+    fn rates(&self, modes: usize, time_step: f64) -> &[f64] {
+        let time = Time::Steps(time_step);
+        let rate = |q: usize| match self.ring.equal() {
+            _ if 2 * q > self.ring.vehicles() => f64::NAN,
+            Some((ring, delay)) => ring.root(q, delay, time).re,
+            None if self.ring.is_jammed() => 0.0,
+            None => self.ring.follow(q, 0, time).map_or(f64::NAN, |s| s.re),
+        };
+        self.rates.get_or_init(|| (1..=modes).map(rate).collect())
+    }
 }
 
 const NOT_LINEAR: &str = "left the linear regime";
@@ -67,7 +102,8 @@ impl Growth {
             times: Vec::new(),
             second_order: Vec::new(),
             amplitudes: vec![Vec::new(); modes],
-            theory: Vec::new(),
+            lanes: Vec::new(),
+            theories: Vec::new(),
             time_step: f64::NAN,
         }
     }
@@ -96,12 +132,27 @@ impl Growth {
         }
     }
 
-    /// The growth rate that the difference equation gives the mode at the end of its window; NaN of drivers that
-    /// differ, whose modes are not Fourier's, and where there is no such mode.
+    /// The growth rate that the difference equation gives the mode at the end of its window.
     fn predicted(&self, mode: usize, window: &Range<usize>) -> f64 {
-        let last = window.clone().next_back().and_then(|row| self.theory[row]);
-        last.filter(|(ring, _)| ring.modes().contains(&(mode + 1)))
-            .map_or(f64::NAN, |(ring, delay)| ring.root(mode + 1, delay, Time::Steps(self.time_step)).re)
+        let last = window.clone().next_back().map(|row| &self.theories[self.lanes[row]]);
+        last.map_or(f64::NAN, |theory| theory.rates(self.amplitudes.len(), self.time_step)[mode])
+    }
+
+    /// How far what is not linear may have moved the slope over the window, 1/s.
+    fn bound(&self, mode: usize, window: &Range<usize>) -> f64 {
+        let (Some(first), Some(last)) = (window.clone().next(), window.clone().next_back()) else {
+            return f64::NAN;
+        };
+        let ring = &self.theories[self.lanes[last]].ring;
+        let slope = ring.kinds().last().map_or(f64::NAN, |kind| kind.slope);
+        let linear = 2.0 * slope * libm::sin(PI * (mode + 1) as f64 / ring.vehicles() as f64);
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for row in window.clone() {
+            let weight = (self.times[row] - self.times[first]) * (self.times[last] - self.times[row]);
+            sum += weight * self.second_order[row] / self.amplitudes[mode][row];
+            weights += weight;
+        }
+        linear * sum / weights
     }
 
     /// The rows of a mode's linear window, and what ended it.
@@ -135,8 +186,12 @@ impl Probe for Growth {
             && !replaced.is_some_and(f64::is_nan)
             && !acted(simulation, self.times.last().copied().unwrap_or(0.0));
         self.times.push(simulation.time());
-        self.theory.truncate(rows);
-        self.theory.push(self.spectrum.equal_drivers(simulation));
+        self.lanes.truncate(rows);
+        let ring = self.spectrum.ring(simulation);
+        if self.theories.last().is_none_or(|theory| theory.ring != ring) {
+            self.theories.push(Theory { ring, rates: OnceCell::new() });
+        }
+        self.lanes.push(self.theories.len() - 1);
         self.time_step = simulation.scenario().time_step;
         self.second_order.push(if same || rows == 0 { self.spectrum.second_order } else { f64::NAN });
         for (column, &amplitude) in self.amplitudes.iter_mut().zip(&self.spectrum.amplitudes) {
@@ -149,10 +204,11 @@ impl Probe for Growth {
         let modes = self.amplitudes.len();
         let (mut rates, mut errors, mut from, mut to) = (vec![], vec![], vec![], vec![]);
         let (mut first, mut last, mut points, mut ends) = (vec![], vec![], vec![], vec![]);
-        let mut predicted = vec![];
+        let (mut predicted, mut bounds) = (vec![], vec![]);
         for mode in 0..modes {
             let (window, end) = self.window(mode);
             predicted.push(self.predicted(mode, &window));
+            bounds.push(self.bound(mode, &window));
             let amplitudes = &self.amplitudes[mode][window.clone()];
             let times = &self.times[window];
             let logarithms: Vec<_> = times.iter().zip(amplitudes).map(|(&t, &a)| (t, libm::log(a))).collect();
@@ -175,8 +231,15 @@ impl Probe for Growth {
             Column::float(
                 "predicted_per_s",
                 "1/s",
-                "growth rate by linear theory, for the steps and the delay in force; none of drivers that differ",
+                "growth rate by linear theory, for the steps and the delay in force; of drivers that differ that of the \
+                 root followed from this mode of equal drivers",
                 predicted,
+            ),
+            Column::float(
+                "nonlinear_bound_per_s",
+                "1/s",
+                "how far the waves' size may have moved the slope, at most",
+                bounds,
             ),
             Column::float("from_s", "s", "start of the linear window", from),
             Column::float("to_s", "s", "end of the linear window", to),

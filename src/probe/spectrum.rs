@@ -2,7 +2,7 @@
 
 use crate::driver::{Driver, equilibrium};
 use crate::simulation::Simulation;
-use crate::stability::equal::EqualRing;
+use crate::stability::ring::{Ring, slopes};
 
 /// Amplitudes of the modes of δ_k = h_k − h_k(v∞), where k counts the vehicles of the lane downstream:
 /// `A_q = (2/n)·|Σ_k δ_k·e^{2πi·qk/n}|`, half of that for q = n/2; so a wave of ±1 m has amplitude 1 m.
@@ -14,12 +14,14 @@ pub(super) struct Spectrum {
     /// Largest |δ_k|, m.
     pub largest: f64,
     /// (λ/V)·mean of δ_k², m: the second order of the speed law against its first, before division by an amplitude.
+    /// Infinite while somebody stands who in equilibrium drives: the law has a kink there.
     pub second_order: f64,
     /// Vehicles in the lane from the lowest number on, downstream.
     order: Vec<usize>,
-    /// Their drivers and h_k(v∞).
+    /// Their drivers, h_k(v∞), and the slopes of speed against headway there, 1/s.
     drivers: Vec<Driver>,
     equilibrium: Vec<f64>,
+    slopes: Vec<f64>,
     /// cos and sin of 2πk/n.
     circle: Vec<(f64, f64)>,
 }
@@ -34,6 +36,7 @@ impl Spectrum {
             order: Vec::new(),
             drivers: Vec::new(),
             equilibrium: Vec::new(),
+            slopes: Vec::new(),
             circle: Vec::new(),
         }
     }
@@ -49,6 +52,12 @@ impl Spectrum {
         self.largest = self.deviations(simulation).map(f64::abs).fold(0.0, f64::max);
         let squares = self.deviations(simulation).zip(&self.drivers);
         self.second_order = squares.map(|(x, d)| d.sensitivity / d.max_speed * x * x).sum::<f64>() / n as f64;
+        let stands = |(&j, driver): (&usize, &Driver)| {
+            simulation.headway(j).min(simulation.perceived_headway(j)) <= driver.min_headway
+        };
+        if self.slopes.iter().any(|&c| c > 0.0) && self.order.iter().zip(&self.drivers).any(stands) {
+            self.second_order = f64::INFINITY;
+        }
         for q in 1..=self.amplitudes.len() {
             if 2 * q > n {
                 self.amplitudes[q - 1] = f64::NAN;
@@ -70,19 +79,11 @@ impl Spectrum {
         same
     }
 
-    /// The lane read last as linear theory sees it, and the delay (s) in force, where its drivers are equal now.
-    pub(super) fn equal_drivers(&self, simulation: &Simulation) -> Option<(EqualRing, f64)> {
-        let (&j, first) = (self.order.first()?, self.drivers.first()?);
-        let steps = simulation.delay_steps(j);
-        let equal = self
-            .order
-            .iter()
-            .zip(&self.drivers)
-            .all(|(&i, driver)| law(driver) == law(first) && simulation.delay_steps(i) == steps);
-        let scenario = simulation.scenario();
-        let vehicles = self.order.len();
-        let slope = first.slope(scenario.length / vehicles as f64);
-        equal.then_some((EqualRing { vehicles, slope }, steps as f64 * scenario.time_step))
+    /// The lane read last as linear theory sees it, with the delays in force now.
+    pub(super) fn ring(&self, simulation: &Simulation) -> Ring {
+        let dt = simulation.scenario().time_step;
+        let delay = |&j: &usize| simulation.delay_steps(j) as f64 * dt;
+        Ring::new(self.slopes.iter().copied().zip(self.order.iter().map(delay)))
     }
 
     fn deviations<'a>(&'a self, simulation: &'a Simulation) -> impl Iterator<Item = f64> + 'a {
@@ -119,6 +120,7 @@ impl Spectrum {
             let headway = |d: &Driver| if equal { length / n as f64 } else { d.headway(speed) };
             self.equilibrium.extend(self.drivers.iter().map(headway));
         }
+        self.slopes = slopes(&self.drivers, length);
         self.circle.clear();
         self.circle.extend((0..n).map(|k| {
             let angle = 2.0 * std::f64::consts::PI * k as f64 / n as f64;

@@ -3,6 +3,7 @@
 //! | file | what is in it |
 //! |---|---|
 //! | [`equal`] | equal drivers: eigenvalues, characteristic roots, critical reaction times, the fastest mode |
+//! | [`factors`] | equal drivers: all growth factors of the difference equation |
 //! | [`jacobian`] | the Jacobian as a matrix and its numerical eigenvalues |
 //! | [`lambert`] | the Lambert W function on all branches |
 //! | [`ring`] | what the theory asks of drivers: slopes and delays |
@@ -18,6 +19,7 @@
 pub mod calm;
 pub(crate) mod complex;
 pub mod equal;
+pub mod factors;
 pub mod inverse;
 pub mod jacobian;
 pub mod lambert;

@@ -1,27 +1,28 @@
-//! The stability plane: critical reaction times against the number of vehicles, and the map of the largest growth rate
-//! over number and reaction time, for equal drivers (the scenario's default one).
+//! The stability plane of one lane of equal drivers: critical reaction times against the number of vehicles in it, and
+//! the map of the largest growth rate over number and reaction time. And tables of what theory says of a scenario while
+//! a parameter is swept.
 
 use super::equal::{EqualRing, Time};
 use super::report::Report;
+use crate::driver::Driver;
 use crate::error::Invalid;
 use crate::parameters::Parameter;
 use crate::scenario::Scenario;
 use crate::table::{Column, Table};
-use serde::Serialize;
 
-/// The lanes of equal drivers into which `vehicles` are dealt; lanes with as many vehicles count once.
-fn lanes(scenario: &Scenario, vehicles: usize) -> Vec<EqualRing> {
-    let mut counts =
-        Scenario { vehicles, exceptions: Vec::new(), actions: Vec::new(), ..*scenario }.vehicles_per_lane();
-    counts.retain(|&count| count > 0);
-    counts.dedup();
-    let ring = |n: usize| EqualRing { vehicles: n, slope: scenario.driver.slope(scenario.length / n as f64) };
-    counts.into_iter().map(ring).collect()
+/// A lane that any number of equal drivers may share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// Every driver; the reaction time plays no part.
+    pub driver: Driver,
+    /// L, m.
+    pub length: f64,
+    /// dt, s.
+    pub time_step: f64,
 }
 
-/// Critical reaction times over the number of vehicles (all lanes together; of the least stable lane). What is
-/// infinite is `None`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Critical reaction times over the number of vehicles in the lane. What is infinite is `None`.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     /// N.
     pub vehicles: Vec<usize>,
@@ -33,52 +34,75 @@ pub struct Curves {
     pub newell_s: Vec<Option<f64>>,
 }
 
-/// Numbers of vehicles at which a picture of the plane asks for its curves: from 2 to the jam, or to the scenario's
-/// own number where that is larger, evenly spread, not many more than `points`. The last is always among them.
-pub fn numbers(scenario: &Scenario, points: usize) -> Vec<usize> {
-    let room = scenario.length * scenario.lanes as f64 / scenario.driver.min_headway;
-    let last = (room as usize).max(scenario.vehicles).max(2);
-    let stride = last.div_ceil(points.max(1));
-    let mut numbers: Vec<_> = (2..last).step_by(stride).collect();
-    numbers.push(last);
-    numbers
-}
+impl Plane {
+    /// The plane of a scenario's default driver.
+    pub fn of(scenario: &Scenario) -> Self {
+        Self { driver: scenario.driver, length: scenario.length, time_step: scenario.time_step }
+    }
 
-/// The curves of the plane.
-pub fn curves(scenario: &Scenario, vehicles: impl IntoIterator<Item = usize>) -> Curves {
-    let vehicles: Vec<_> = vehicles.into_iter().collect();
-    let least = |n: usize, of: &dyn Fn(&EqualRing) -> f64| {
-        let smallest = lanes(scenario, n).iter().map(of).fold(f64::INFINITY, f64::min);
-        smallest.is_finite().then_some(smallest)
-    };
-    let column = |of: &dyn Fn(&EqualRing) -> f64| vehicles.iter().map(|&n| least(n, of)).collect();
-    let time = Time::Steps(scenario.time_step);
-    let continuous_s = column(&|ring| ring.critical(Time::Continuous));
-    let discrete_s = column(&|ring| ring.critical(time));
-    let newell_s = column(&EqualRing::newell_limit);
-    Curves { vehicles, continuous_s, discrete_s, newell_s }
-}
+    fn ring(&self, vehicles: usize) -> EqualRing {
+        EqualRing { vehicles, slope: self.driver.slope(self.length / vehicles as f64) }
+    }
 
-/// Critical reaction times (s) of all modes 1 … ⌊n/2⌋ of a lane of n vehicles: continuous time and steps.
-pub fn critical_of_modes(scenario: &Scenario, vehicles: usize) -> Vec<(f64, f64)> {
-    let slope = scenario.driver.slope(scenario.length / vehicles as f64);
-    let ring = EqualRing { vehicles, slope };
-    let time = Time::Steps(scenario.time_step);
-    ring.modes().map(|q| (ring.critical_of(q, Time::Continuous), ring.critical_of(q, time))).collect()
-}
+    /// Steps or continuous time.
+    pub fn time(&self, in_steps: bool) -> Time {
+        if in_steps { Time::Steps(self.time_step) } else { Time::Continuous }
+    }
 
-/// One row of the map: the largest growth rate (1/s) with `vehicles` vehicles at each reaction time (s), a number
-/// for every one: 0 in the jam, NaN where no lane has modes. In steps, delays between whole steps are what
-/// z^m means for a real m; the map has no stairs.
-pub fn growth_rates(scenario: &Scenario, vehicles: usize, reaction_times: &[f64], time: Time) -> Vec<f64> {
-    let lanes = lanes(scenario, vehicles);
-    let rate = |ring: &EqualRing, delay: f64| match ring.fastest(delay, time) {
-        Some(mode) => mode.root.re,
-        None if ring.vehicles > 1 => 0.0,
-        None => f64::NAN,
-    };
-    let largest = |delay: f64| lanes.iter().map(|ring| rate(ring, delay)).fold(f64::NAN, f64::max);
-    reaction_times.iter().map(|&delay| largest(delay)).collect()
+    /// The number of vehicles beyond which the lane is a jam.
+    pub fn jam(&self) -> f64 {
+        self.length / self.driver.min_headway
+    }
+
+    /// Numbers of vehicles at which a picture of the plane asks for its curves: from 2 to the jam, or to the `own`
+    /// number of the lane where that is larger, evenly spread, not many more than `points`. The last is always
+    /// among them.
+    pub fn numbers(&self, own: usize, points: usize) -> Vec<usize> {
+        let last = (self.jam() as usize).max(own).max(2);
+        let stride = last.div_ceil(points.max(1));
+        let mut numbers: Vec<_> = (2..last).step_by(stride).collect();
+        numbers.push(last);
+        numbers
+    }
+
+    /// The curves of the plane.
+    pub fn curves(&self, vehicles: impl IntoIterator<Item = usize>) -> Curves {
+        let vehicles: Vec<_> = vehicles.into_iter().collect();
+        let column = |of: &dyn Fn(&EqualRing) -> f64| {
+            let finite = |&n: &usize| Some(of(&self.ring(n))).filter(|x| x.is_finite());
+            vehicles.iter().map(finite).collect()
+        };
+        let continuous_s = column(&|ring| ring.critical(Time::Continuous));
+        let discrete_s = column(&|ring| ring.critical(Time::Steps(self.time_step)));
+        let newell_s = column(&EqualRing::newell_limit);
+        Curves { vehicles, continuous_s, discrete_s, newell_s }
+    }
+
+    /// Critical reaction time (s) of a mode at every number of `vehicles`; infinite in the jam, NaN where there
+    /// are too few vehicles for it.
+    pub fn critical_of_mode(&self, mode: usize, vehicles: &[usize], time: Time) -> Vec<f64> {
+        let critical =
+            |&n: &usize| if 2 * mode > n { f64::NAN } else { self.ring(n).critical_of(mode, time) };
+        vehicles.iter().map(critical).collect()
+    }
+
+    /// One row of the map: the largest growth rate (1/s) with `vehicles` vehicles at each reaction time (s), a number
+    /// for every one: 0 in the jam, NaN for a vehicle alone, which has no modes. In steps, delays between whole
+    /// steps are what z^m means for a real m; the map has no stairs.
+    pub fn growth_rates(
+        &self,
+        vehicles: usize,
+        reaction_times: impl IntoIterator<Item = f64>,
+        time: Time,
+    ) -> Vec<f64> {
+        let ring = self.ring(vehicles);
+        let rate = |delay: f64| match ring.fastest(delay, time) {
+            Some(mode) => mode.root.re,
+            None if vehicles > 1 => 0.0,
+            None => f64::NAN,
+        };
+        reaction_times.into_iter().map(rate).collect()
+    }
 }
 
 /// A parameter and the values that a sweep gives it: `vehicles=2:133`, `reaction-time=0:1.5:0.05`.
@@ -205,56 +229,63 @@ mod tests {
     #[test]
     fn curves_and_sweep_say_the_same() {
         let scenario = Scenario::default();
-        let curves = curves(&scenario, 2..=133);
+        let plane = Plane::of(&scenario);
+        let curves = plane.curves(2..=133);
         let table = sweep(&scenario, &"vehicles=2:133".parse().unwrap()).unwrap();
         let continuous = table.floats("critical_reaction_time_s").unwrap();
         let discrete = table.floats("critical_reaction_time_discrete_s").unwrap();
         assert_eq!(table.rows(), 132);
-        for (k, &n) in curves.vehicles.iter().enumerate() {
+        for k in 0..132 {
             assert_eq!(curves.continuous_s[k], Some(continuous[k]));
             assert_eq!(curves.discrete_s[k], Some(discrete[k]));
-            let modes = critical_of_modes(&scenario, n);
-            assert_eq!(modes.len(), n / 2);
-            assert_eq!(modes[0], (continuous[k], discrete[k]));
-            assert!(modes.windows(2).all(|w| w[0].0 < w[1].0 && w[0].1 < w[1].1));
         }
         // τ(N) falls with N, to Newell's 0.5 s at the jam.
         assert!(continuous.windows(2).all(|w| w[1] < w[0]));
         assert!((continuous[131] - 0.500_282).abs() < 5e-7);
     }
 
+    /// Mode 1 is the ring's own curve; the shorter the wave, the longer the delay that it tolerates.
     #[test]
-    fn the_map_changes_sign_on_the_curve() {
-        let scenario = Scenario::default();
-        for n in [2, 10, 50, 133] {
-            let critical = curves(&scenario, n..=n);
-            for (time, tau) in
-                [(Time::Continuous, critical.continuous_s[0]), (Time::Steps(0.01), critical.discrete_s[0])]
-            {
-                let tau = tau.unwrap();
-                let row = growth_rates(&scenario, n, &[tau - 1e-6, tau + 1e-6], time);
-                assert!(row[0] < 0.0 && row[1] > 0.0, "{n} {time:?} {row:?}");
+    fn every_mode_has_a_curve_of_its_own() {
+        let plane = Plane { time_step: 0.05, ..Plane::of(&Scenario::default()) };
+        let numbers = plane.numbers(150, 400);
+        let curves = plane.curves(numbers.iter().copied());
+        for (in_steps, of_the_ring) in [(false, &curves.continuous_s), (true, &curves.discrete_s)] {
+            let modes: Vec<_> =
+                (1..=75).map(|q| plane.critical_of_mode(q, &numbers, plane.time(in_steps))).collect();
+            for (k, &n) in numbers.iter().enumerate() {
+                assert_eq!(Some(modes[0][k]).filter(|tau| tau.is_finite()), of_the_ring[k]);
+                assert_eq!(modes.iter().filter(|mode| !mode[k].is_nan()).count(), n / 2);
+                let rising = modes[..n / 2].windows(2).all(|w| w[0][k] < w[1][k]);
+                assert!(rising || n > 133, "{n}");
             }
+            assert_eq!(modes[20][numbers.len() - 1], f64::INFINITY, "the jam");
         }
-        assert_eq!(growth_rates(&scenario, 140, &[0.0, 5.0], Time::Continuous), [0.0, 0.0]);
-        assert!(growth_rates(&scenario, 1, &[1.0], Time::Continuous)[0].is_nan());
     }
 
     #[test]
-    fn two_lanes_have_the_threshold_of_the_fuller() {
-        let scenario = Scenario { lanes: 2, ..Scenario::default() };
-        let one = curves(&Scenario::default(), 51..=51);
-        assert_eq!(curves(&scenario, 101..=101).continuous_s, one.continuous_s);
+    fn the_map_changes_sign_on_the_curve() {
+        let plane = Plane::of(&Scenario::default());
+        for n in [2, 10, 50, 133] {
+            let critical = plane.curves(n..=n);
+            for (in_steps, tau) in [(false, critical.continuous_s[0]), (true, critical.discrete_s[0])] {
+                let tau = tau.unwrap();
+                let row = plane.growth_rates(n, [tau - 1e-6, tau + 1e-6], plane.time(in_steps));
+                assert!(row[0] < 0.0 && row[1] > 0.0, "{n} {in_steps} {row:?}");
+            }
+        }
+        assert_eq!(plane.growth_rates(140, [0.0, 5.0], Time::Continuous), [0.0, 0.0]);
+        assert!(plane.growth_rates(1, [1.0], Time::Continuous)[0].is_nan());
     }
 
     #[test]
     fn pictures_reach_from_two_vehicles_to_the_jam() {
-        let scenario = Scenario::default();
-        assert_eq!(numbers(&scenario, 400), (2..=133).collect::<Vec<_>>());
-        assert_eq!(numbers(&Scenario { vehicles: 150, ..scenario.clone() }, 400).last(), Some(&150));
-        let road = Scenario { length: 1e5, lanes: 2, ..scenario };
-        let spread = numbers(&road, 400);
-        assert!(spread.len() <= 401 && spread.last() == Some(&26_666), "{}", spread.len());
+        let plane = Plane::of(&Scenario::default());
+        assert_eq!(plane.numbers(50, 400), (2..=133).collect::<Vec<_>>());
+        assert_eq!(plane.numbers(150, 400).last(), Some(&150));
+        let road = Plane { length: 1e5, ..plane };
+        let spread = road.numbers(50, 400);
+        assert!(spread.len() <= 401 && spread.last() == Some(&13_333), "{}", spread.len());
         assert!(spread.windows(2).all(|w| w[0] < w[1]));
     }
 

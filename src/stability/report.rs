@@ -3,6 +3,7 @@
 
 use super::complex::{Complex64, norm};
 use super::equal::{Mode, Time};
+use super::factors::Factor;
 use super::ring::Ring;
 use crate::driver::{Driver, equilibrium};
 use crate::scenario::Scenario;
@@ -178,6 +179,39 @@ pub fn leading_roots(scenario: &Scenario, lane: usize, count: usize) -> Vec<Mode
     let lane = lanes_of(scenario).swap_remove(lane);
     let (ring, _) = rings(&lane, scenario.length, scenario.time_step);
     roots_of_modes(&ring, 1..=ring.vehicles() / 2, count)
+}
+
+/// The same of the simulation: its `count` leading growth factors for every mode, by falling modulus.
+pub fn leading_factors(scenario: &Scenario, lane: usize, count: usize) -> Vec<Factor> {
+    let lane = lanes_of(scenario).swap_remove(lane);
+    let dt = scenario.time_step;
+    let (_, ring) = rings(&lane, scenario.length, dt);
+    let modes = 1..=ring.vehicles() / 2;
+    if let Some((equal, _)) = ring.equal() {
+        let steps = lane.delay_steps[0];
+        return modes.flat_map(|q| equal.leading_factors(q, steps, dt, count)).collect();
+    }
+    let time = Time::Steps(dt);
+    let of_mode = |q: usize| {
+        let reach = count as i32;
+        let mut roots: Vec<Factor> = Vec::new();
+        // From the middle outwards: z knows no turns beyond a half, so what comes round again is not a new root.
+        for k in (0..=reach).flat_map(|k| if k == 0 { vec![0] } else { vec![-k, k] }) {
+            let Some(s) = ring.follow(q, k, time).filter(|s| (s.im * dt).abs() < PI + 1e-9) else { continue };
+            let root = Factor::new(q, k, s, dt, ring.residual(s, time) / norm(s).max(1.0));
+            let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+            let known = |r: &Factor| {
+                near(r.factor_real, root.factor_real) && near(r.factor_imaginary, root.factor_imaginary)
+            };
+            if !roots.iter().any(known) {
+                roots.push(root);
+            }
+        }
+        roots.sort_by(|a, b| b.real_per_s.total_cmp(&a.real_per_s));
+        roots.truncate(count);
+        roots
+    };
+    modes.flat_map(of_mode).collect()
 }
 
 fn roots_of_modes(ring: &Ring, modes: impl Iterator<Item = usize>, count: usize) -> Vec<ModeRoot> {

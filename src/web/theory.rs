@@ -1,7 +1,7 @@
 //! What the page's stability tab asks for: curves, roots, and the growth of every mode.
 
 use super::{Lab, refusal, verdict};
-use crate::stability::plane::{curves, numbers};
+use crate::stability::plane::Plane;
 use serde_json::json;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::*;
@@ -10,13 +10,44 @@ use wasm_bindgen::prelude::*;
 const POINTS: usize = 400;
 /// Modes whose roots are shown.
 const MODES: usize = 200;
+/// Modes with a curve in the plane, more than can be told apart there.
+const CURVES: usize = 100;
 
 #[wasm_bindgen]
 impl Lab {
-    /// Critical reaction times over the number of vehicles, for drivers like those without an exception now, as JSON.
-    pub fn plane(&self) -> String {
-        let scenario = self.live.settled();
-        serde_json::to_string(&curves(&scenario, numbers(&scenario, POINTS))).unwrap_or_default()
+    fn numbers(&mut self) -> (Plane, Vec<usize>) {
+        let plane = self.live.plane();
+        (plane, plane.numbers(self.live.verdict().vehicles, POINTS))
+    }
+
+    /// The plane of the lane that the verdict speaks of: the number of vehicles beyond which it is a jam; the reaction
+    /// time of its drivers, or of those without an exception; then numbers of vehicles, and as many critical reaction
+    /// times (s) in continuous time, in steps, and by Newell's limit. What is not finite: every one is stable.
+    pub fn plane(&mut self) -> Vec<f64> {
+        let (plane, numbers) = self.numbers();
+        let curves = plane.curves(numbers.iter().copied());
+        let mut all = vec![plane.jam(), plane.driver.reaction_time];
+        all.extend(numbers.iter().map(|&n| n as f64));
+        for column in [curves.continuous_s, curves.discrete_s, curves.newell_s] {
+            all.extend(column.into_iter().map(|tau| tau.unwrap_or(f64::INFINITY)));
+        }
+        all
+    }
+
+    /// Critical reaction times of single modes (s), mode after mode, over the same numbers of vehicles: infinite in
+    /// the jam, NaN where there is no such mode. Of very many modes a choice, evenly spread.
+    pub fn plane_modes(&mut self, in_steps: bool) -> Vec<f64> {
+        let (plane, numbers) = self.numbers();
+        let most = numbers.last().map_or(0, |n| n / 2);
+        let modes = (1..=most).step_by(most.div_ceil(CURVES).max(1));
+        modes.flat_map(|q| plane.critical_of_mode(q, &numbers, plane.time(in_steps))).collect()
+    }
+
+    /// The largest growth rate (1/s) with so many vehicles at `count` reaction times from 0 to `highest` s.
+    pub fn growth_rates(&mut self, vehicles: usize, highest: f64, count: u32, in_steps: bool) -> Vec<f64> {
+        let plane = self.live.plane();
+        let delays = (0..count).map(|k| highest * f64::from(k) / f64::from((count - 1).max(1)));
+        plane.growth_rates(vehicles, delays, plane.time(in_steps))
     }
 
     /// The characteristic roots of the lane that the verdict speaks of, as JSON.
@@ -32,7 +63,8 @@ impl Lab {
         };
         let column = |name: &str| table.floats(name).unwrap_or_default();
         let (rate, error) = (column("growth_rate_per_s"), column("standard_error_per_s"));
-        let (predicted, from, to) = (column("predicted_per_s"), column("from_s"), column("to_s"));
+        let (predicted, bound) = (column("predicted_per_s"), column("nonlinear_bound_per_s"));
+        let (from, to) = (column("from_s"), column("to_s"));
         let ended_by = table.texts("ended_by").unwrap_or_default();
         let one = |k: usize| {
             json!({
@@ -40,6 +72,7 @@ impl Lab {
                 "rate": rate[k],
                 "standard_error": error[k],
                 "predicted": predicted[k],
+                "nonlinear_bound": bound[k],
                 "from": from[k],
                 "to": to[k],
                 "ended_by": ended_by[k],
@@ -49,8 +82,11 @@ impl Lab {
         json!({ "starts": starts, "modes": modes }).to_string()
     }
 
-    /// What theory would say with so many vehicles at that reaction time, as JSON.
-    pub fn preview_point(&self, vehicles: &str, reaction_time: &str) -> Result<String, JsError> {
-        self.live.preview_point(vehicles, reaction_time).map(|v| verdict(&v).to_string()).map_err(refusal)
+    /// What theory would say at that reaction time with so many vehicles on all lanes (none: where they are now), as JSON.
+    pub fn preview_point(&self, vehicles: Option<String>, reaction_time: &str) -> Result<String, JsError> {
+        self.live
+            .preview_point(vehicles.as_deref(), reaction_time)
+            .map(|v| verdict(&v).to_string())
+            .map_err(refusal)
     }
 }

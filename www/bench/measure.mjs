@@ -1,5 +1,5 @@
 // What is timed, in Node and in a page alike.
-import { initSync, Run } from '../pkg/ringroad.js'
+import { initSync, Lab, Run } from '../pkg/ringroad.js'
 import { Plain } from './plain.mjs'
 
 /**
@@ -84,4 +84,36 @@ export function batch({ scenario }, runs, steps) {
   const [wasm, javascript] = fastest([{ updates, run: times(core) }, { updates, run: times(plain) }])
   first.free()
   return { wasm, javascript }
+}
+
+/** As in the worker: a slice ends with the column in which these milliseconds are over. */
+const SLICE = 6
+
+/**
+ * The map of the largest growth rate, N = 2 … 133 by 200 reaction times, in steps of 0.01 s; and the curves of the plane,
+ * every mode, in steps and in continuous time. Milliseconds: the fastest of some repetitions, and its longest slice.
+ */
+export function plane() {
+  const lab = new Lab()
+  const timed = run => {
+    const before = performance.now()
+    run()
+    return performance.now() - before
+  }
+  let map = { total: Infinity, longest: 0 }
+  for (let i = 0; i < REPETITIONS; i++) {
+    let [total, longest, slice] = [0, 0, 0]
+    for (let n = 2; n <= 133; n++) {
+      const column = timed(() => lab.growth_rates(n, 1.5, 200, true))
+      total += column
+      slice += column
+      longest = Math.max(longest, slice)
+      if (slice >= SLICE) slice = 0
+    }
+    if (total < map.total) map = { total, longest }
+  }
+  const curves = () => [lab.plane(), lab.plane_modes(true), lab.plane_modes(false)]
+  const best = Math.min(...Array.from({ length: REPETITIONS }, () => timed(curves)))
+  lab.free()
+  return { map, curves: best }
 }

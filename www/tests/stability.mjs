@@ -18,11 +18,11 @@ async function drag(page, vehicles, delay, before = () => {}) {
   }
   const field = await page.locator('#plane canvas').boundingBox()
   const from = await middle()
-  const { scenario, driver } = await snapshot(page)
+  const { verdict: now, driver } = await snapshot(page)
   // Where the axes begin follows from the picture's own ticks: N = 0 at the left end, Δ = 0 at the lower end.
   const left = field.x + 30
   const bottom = field.y + field.height - 36
-  const x = left + ((from.x - left) * vehicles) / scenario.vehicles
+  const x = left + ((from.x - left) * vehicles) / now.vehicles
   const y = bottom - ((bottom - from.y) * delay) / driver.reaction_time
   await page.mouse.move(from.x, from.y)
   await page.mouse.down()
@@ -78,6 +78,163 @@ for (const [state, from, to, sign] of [
     holds((await verdict(page)) !== state, `${state} after the way back`)
   })
 }
+
+test('with two lanes the plane is of the lane that the verdict speaks of', async ({ open }) => {
+  const page = await open(`index.html#reaction-time=0.75&lanes=2&${NUDGE}`, still)
+  await ready(page)
+  await plane(page)
+  const value = () => page.getAttribute('#plane-point', 'aria-valuetext')
+  equal(await value(), '25 vehicles in lane 1, reaction time 0.75 seconds: stable', 'where the lane stands')
+  const sentence = await page.textContent('#verdict .sentence')
+  const tolerated = sentence.match(/tolerates ([\d.]+)/)[1]
+  holds((await page.textContent('#plane .keys')).includes(tolerated), `${sentence} / ${await page.textContent('#plane .keys')}`)
+  let held
+  await drag(page, 40, 0.9, async () => {
+    held = await verdict(page)
+  })
+  const { scenario, verdict: after } = await snapshot(page)
+  holds(Math.abs(after.vehicles - 40) <= 1 && scenario.vehicles === 2 * after.vehicles, `${after.vehicles} of ${scenario.vehicles}`)
+  equal(held, 'unstable', 'verdict while the point is held')
+  equal(await verdict(page), 'unstable', 'verdict')
+  holds((await value()).startsWith(`${after.vehicles} vehicles in lane 1`), await value())
+  // Δ alone leaves the vehicles where they are.
+  await playTo(page, 5)
+  await drag(page, after.vehicles, 0.5)
+  const now = await snapshot(page)
+  equal(now.scenario.vehicles, scenario.vehicles, 'N after Δ alone')
+  holds(now.scenario.actions.at(-1).includes('reaction-time='), now.scenario.actions.join())
+})
+
+test('where drivers differ the plane says that it is for drivers alike, and theory stands beside what is measured', async ({ open }) => {
+  const page = await open(`index.html#reaction-time=0.75&driver=1-25%3Areaction-time%3D0.3&${TOUCH}`, still)
+  await ready(page)
+  await plane(page)
+  equal(await page.textContent('#plane-title'), 'If drivers were alike', 'title')
+  holds(/for drivers alike/.test(await page.getAttribute('#plane canvas', 'aria-label')), 'said in words')
+  await playTo(page, 60)
+  await page.waitForTimeout(900)
+  const label = await page.getAttribute('#modes canvas', 'aria-label')
+  holds(/mode 1: .?0\.\d+ against .?0\.00/.test(label), label)
+  const { modes } = await page.evaluate(() => window.ringroad.client.ask('modes', {}))
+  const roots = await page.evaluate(() => window.ringroad.client.ask('roots', {}))
+  for (const { mode, predicted } of modes.filter(m => m.rate !== null)) {
+    const root = roots.growth_per_s[roots.modes.indexOf(mode)]
+    holds(Math.abs(predicted - root) < 1e-9, `mode ${mode}: ${predicted} in the table, ${root} among the roots`)
+  }
+})
+
+/** Switches to a picture of the plane and waits until it is there. */
+async function choose(page, ground, { wait = true } = {}) {
+  await page.selectOption('#plane-ground', ground)
+  if (wait) await page.waitForFunction(() => document.querySelector('#plane').dataset.growth === 'done', null, { timeout: 60_000 })
+}
+
+/** The colour of the plane at a number of vehicles and a reaction time; the axes reach to 133 and 1.5 s. */
+const at = (page, vehicles, delay) =>
+  page.evaluate(
+    ([n, s]) => {
+      const canvas = document.querySelector('#plane canvas')
+      const scale = canvas.width / canvas.clientWidth
+      const [left, right, top, bottom] = [30, canvas.clientWidth - 8, 25, canvas.clientHeight - 36]
+      const [x, y] = [left + ((right - left) * n) / 133, bottom - ((bottom - top) * s) / 1.5]
+      return Array.from(canvas.getContext('2d').getImageData(Math.round(x * scale), Math.round(y * scale), 1, 1).data)
+    },
+    [vehicles, delay],
+  )
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`the map of growth rates is blue below the curve and orange above it, ${colorScheme}`, async ({ open }) => {
+    const page = await open(`index.html#reaction-time=0.2&${NUDGE}`, { ...still, colorScheme })
+    await ready(page)
+    await plane(page)
+    for (const ground of ['steps', 'continuous']) {
+      await choose(page, ground)
+      for (const [n, s, grows] of [
+        [8, 0.4, false],
+        [24, 0.7, false],
+        [64, 1.03, true],
+        [98, 0.83, true],
+        [127, 1.43, true],
+      ]) {
+        const [r, , b] = await at(page, n, s)
+        holds(grows ? r > b : b > r, `${ground}, ${n} vehicles, ${s} s: red ${r}, blue ${b}`)
+      }
+      holds(/orange, growing/.test(await page.getAttribute('#plane canvas', 'aria-label')), 'said in words')
+    }
+    const before = await at(page, 98, 0.83)
+    await page.check('#plane-modes')
+    await page.waitForTimeout(600)
+    const count = await page.evaluate(async () => (await window.ringroad.client.ask('planeModes', { steps: true })).length)
+    equal(count, 132 * 66, 'a value for every number of vehicles and mode')
+    await page.uncheck('#plane-modes')
+    await choose(page, 'regions', { wait: false })
+    await page.waitForTimeout(100)
+    holds((await at(page, 98, 0.83)).join() !== before.join(), 'switched off')
+  })
+}
+
+test('the map of growth rates leaves room for everything else and is given up at once', async ({ open }) => {
+  const page = await open(`index.html#reaction-time=0.75&${NUDGE}`, still)
+  await ready(page)
+  await plane(page)
+  /** How long the worker lets another question wait, and the page a timer, while `during` goes on (ms). */
+  const waits = during =>
+    page.evaluate(async source => {
+      const going = new Function(`return ${source}`)
+      const { client } = window.ringroad
+      let [worker, own, answers] = [0, 0, 0]
+      let over = false
+      const asking = (async () => {
+        while (!over) {
+          const before = performance.now()
+          await client.ask('advance', { steps: 0, budget: 0 })
+          worker = Math.max(worker, performance.now() - before)
+          answers++
+          await new Promise(resolve => setTimeout(resolve, 5))
+        }
+      })()
+      const started = performance.now()
+      for (let last = started; going() && last < started + 60_000; ) {
+        await new Promise(resolve => setTimeout(resolve))
+        own = Math.max(own, performance.now() - last)
+        last = performance.now()
+      }
+      over = true
+      await asking
+      return { worker, own, answers, total: performance.now() - started }
+    }, during)
+  // What the machine does without the map, for about as long.
+  await page.evaluate(() => {
+    window.until = performance.now() + 800
+  })
+  const idle = await waits('performance.now() < window.until')
+  await choose(page, 'steps', { wait: false })
+  const busy = await waits("document.querySelector('#plane').dataset.growth === 'busy'")
+  console.log(`        map: ${JSON.stringify(busy)}, without: ${JSON.stringify(idle)}`)
+  holds(busy.answers >= 5, `${busy.answers} answers meanwhile`)
+  holds(busy.worker < 3 * idle.worker + 120 && busy.own < 3 * idle.own + 120, `${JSON.stringify(busy)}, without: ${JSON.stringify(idle)}`)
+
+  // Given up: what has been asked for comes back short.
+  const short = await page.evaluate(async () => {
+    const { client } = window.ringroad
+    const vehicles = Array.from({ length: 132 }, (_, k) => k + 2)
+    const map = client.ask('growthRates', { vehicles, highest: 1.5, count: 200, steps: true, budget: 60_000 })
+    await client.ask('haltGrowthRates', {})
+    return (await map).length / 200
+  })
+  holds(short < 66, `${short} of 132 columns before the halt`)
+  // While the point is held nothing is computed; then the map is completed.
+  await drag(page, 50, 0.6, async () => {
+    await choose(page, 'continuous', { wait: false })
+    await page.waitForTimeout(1500)
+    equal(await page.getAttribute('#plane', 'data-growth'), 'busy', 'while the point is held')
+  })
+  await choose(page, 'continuous')
+  // Another plane is another map.
+  await page.evaluate(() => window.ringroad.set('sensitivity', '1.5'))
+  await page.waitForFunction(() => document.querySelector('#plane').dataset.growth === 'busy')
+  await choose(page, 'continuous')
+})
 
 test('the point moves by keyboard: Δ and N, and N starts again', async ({ open }) => {
   const page = await open(`index.html#reaction-time=0.66&${NUDGE}`, still)

@@ -53,6 +53,7 @@ const verdict: Verdict = {
   flow: 0.54,
   density: 0.05,
   lane: 1,
+  vehicles: 50,
 }
 const plain = (s: string) => s.replaceAll('\u202f', ' ')
 
@@ -65,9 +66,13 @@ test('the verdict is a sentence with both thresholds', () => {
 })
 
 test('what is measured says its window, and does not pretend', () => {
-  const growth = { rate: 0.016, standard_error: 0.0001, window: 60, mode: 8 }
+  const growth = { rate: 0.016, standard_error: 0.0001, nonlinear_bound: 0.0004, window: 60, mode: 8 }
   expect(plain(en.verdict.measured(growth, false))).toBe('measured: doubles every 43 s')
   expect(plain(en.verdict.measured({ ...growth, window: 20 }, false))).toContain('20 s')
   expect(en.verdict.measured({ ...growth, standard_error: 0.02 }, false)).toContain('neither')
   expect(en.verdict.measured(growth, true)).toContain('now large waves')
+  expect(plain(en.verdict.measured({ ...growth, nonlinear_bound: 0.004 }, false))).toBe('measured: doubles every 34–59 s')
+  expect(plain(en.verdict.measured({ ...growth, rate: -0.005, nonlinear_bound: 0.002 }, false))).toBe('measured: halves every 96 s–4 min')
+  expect(en.verdict.measured({ ...growth, nonlinear_bound: 0.01, standard_error: 0.004 }, false)).toContain('not clear yet')
+  expect(en.verdict.measured({ ...growth, nonlinear_bound: 0.02 }, false)).toContain('too large to tell')
 })

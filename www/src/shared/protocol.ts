@@ -61,6 +61,8 @@ export interface Verdict {
   readonly density: number
   /** Lane that the verdict speaks of, from 1. */
   readonly lane: number
+  /** Vehicles in it. */
+  readonly vehicles: number
 }
 
 /** Growth measured in the run. */
@@ -68,12 +70,23 @@ export interface Growth {
   /** 1/s. */
   readonly rate: number
   readonly standard_error: number
+  /** How far the waves' size may have moved the rate, 1/s. */
+  readonly nonlinear_bound: number
   /** Seconds looked back. */
   readonly window: number
   readonly mode: number
 }
 
-/** Critical reaction times (s) over the number of vehicles; null where every one is stable. */
+/** The stability plane of the lane that the verdict speaks of. */
+export interface Plane {
+  readonly curves: Curves
+  /** The number of vehicles beyond which the lane is a jam. */
+  readonly jam: number
+  /** Of its drivers; where they differ, of those without an exception, s. */
+  readonly reaction_time: number
+}
+
+/** Critical reaction times (s) over the number of vehicles in the lane; null where every one is stable. */
 export interface Curves {
   readonly vehicles: readonly number[]
   readonly continuous_s: readonly (number | null)[]
@@ -99,8 +112,10 @@ export interface ModeGrowth {
   /** 1/s. */
   readonly rate: number | null
   readonly standard_error: number | null
-  /** By theory, where drivers are alike. */
+  /** By theory; where drivers differ, the root followed from this mode of equal drivers. */
   readonly predicted: number | null
+  /** How far the waves' size may have moved the rate, 1/s. */
+  readonly nonlinear_bound: number | null
   /** The time in which the mode was small enough to be linear, s. */
   readonly from: number | null
   readonly to: number | null
@@ -284,9 +299,19 @@ export interface Requests {
   set: { ask: { name: string; value: string }; answer: Snapshot }
   /** What the verdict would be. */
   preview: { ask: { name: string; value: string }; answer: Verdict }
-  /** The same for a point of the stability plane. */
-  previewPoint: { ask: { vehicles: number; reactionTime: number }; answer: Verdict }
-  plane: { ask: Record<string, never>; answer: Curves }
+  /** The same for a point of the stability plane: so many vehicles on all lanes, or where they are now (null). */
+  previewPoint: { ask: { vehicles: number | null; reactionTime: number }; answer: Verdict }
+  plane: { ask: Record<string, never>; answer: Plane }
+  /** Critical reaction times of mode 1, of mode 2, … over the numbers of vehicles of the plane: NaN where there is no
+   * such mode. */
+  planeModes: { ask: { steps: boolean }; answer: Float64Array }
+  /** The largest growth rate (1/s) at `count` reaction times up to `highest` s, for the first of these numbers of
+   * vehicles, for the second, …: as many as the budget (ms) allows, in slices, until that is halted or asked anew. */
+  growthRates: {
+    ask: { vehicles: readonly number[]; highest: number; count: number; steps: boolean; budget: number }
+    answer: Float64Array
+  }
+  haltGrowthRates: { ask: Record<string, never>; answer: null }
   roots: { ask: Record<string, never>; answer: Roots }
   modes: { ask: Record<string, never>; answer: ModesGrowth }
   /** Goes to a time, by replaying from the start. */

@@ -5,9 +5,21 @@ import type { Growth, Verdict } from '../shared/protocol'
 
 const seconds = (s: number) => unit(fixed(s, 3), 's')
 /** A critical reaction time; none where every one is stable. */
-const tau = (s: number | null) => (s === null ? '–' : unit(exactly(s, 3), 's'))
+const tau = (s: number | null) => (s === null ? '–' : s >= 1000 ? unit('over 1000', 's') : unit(exactly(s, s < 10 ? 3 : s < 100 ? 1 : 0), 's'))
+/** Two significant digits. */
+const short = (x: number) => String(Number(x.toPrecision(2)))
 const jams = (n: number) => (n === 1 ? '1 jam' : `${n} jams`)
 const pace = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
+/** The same as a range, unless it is known to a twentieth: what the waves' size may have done, and the scatter. */
+function within({ rate, nonlinear_bound, standard_error }: Growth): string {
+  const error = nonlinear_bound + 2 * standard_error
+  if (error < 0.05 * Math.abs(rate)) return pace(rate)
+  if (nonlinear_bound >= Math.abs(rate)) return 'waves too large to tell'
+  if (error >= Math.abs(rate)) return 'not clear yet'
+  const [fast, slow] = [error, -error].map(e => span(Math.LN2 / (Math.abs(rate) + e)))
+  const [from, of] = fast!.split('\u202f')
+  return `${rate > 0 ? 'doubles' : 'halves'} every ${slow!.endsWith(of!) ? from : fast}–${slow}`
+}
 
 export const en = {
   title: 'Ringroad',
@@ -55,7 +67,7 @@ export const en = {
           : 'With these drivers a small wave grows.'
       }
       if (v.critical_discrete <= 0) return `Drivers react after ${seconds(v.reaction_time)}; no delay at all would be small enough.`
-      return `Drivers react after ${seconds(v.reaction_time)}; this ring tolerates ${unit(exactly(v.critical_discrete, 3), 's')}${v.critical === null ? '' : ` (τ = ${unit(exactly(v.critical, 3), 's')})`}.`
+      return `Drivers react after ${seconds(v.reaction_time)}; this ring tolerates ${tau(v.critical_discrete)}${v.critical === null || v.critical >= 1000 ? '' : ` (τ = ${tau(v.critical)})`}.`
     },
     wave: (v: Verdict): string => {
       if (v.stable === null || v.rate === null || v.mode === null || v.rate === 0) return ''
@@ -68,7 +80,7 @@ export const en = {
       const over = g.window < 59 ? `measured, ${span(g.window)}: ` : 'measured: '
       const now = large ? '; now large waves' : ''
       if (Math.abs(g.rate) < 2 * g.standard_error || Math.abs(g.rate) < 1e-6) return `${over}neither grows nor fades${now}`
-      return over + pace(g.rate) + now
+      return over + within(g) + now
     },
     measuring: 'measuring …',
     large: 'large waves, beyond linear theory',
@@ -293,21 +305,37 @@ export const en = {
     title: 'Where waves grow',
     stable: 'stable',
     unstable: 'unstable',
-    vehicles: 'vehicles N',
+    jam: 'jam',
+    /** The lane where there are several, else null. */
+    vehicles: (lane: number | null): string => (lane === null ? 'vehicles N' : `vehicles in lane ${lane}`),
+    /** Where a colour bar stands beside it. */
+    vehiclesShort: (lane: number | null): string => (lane === null ? 'vehicles N' : `N in lane ${lane}`),
     reaction: 'reaction time Δ (s)',
     handle: 'Vehicles and reaction time',
     kind: 'two-way slider',
     hint: 'Drag the point, or use its arrow keys: ← → vehicles, ↑ ↓ reaction time. A new N starts again.',
-    value: (n: number, delta: number, state: string): string =>
-      `${n} vehicles, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
+    hintLanes: (lane: number, each: boolean): string =>
+      `The plane is of lane ${lane}, as the verdict is. Drag the point, or use its arrow keys: ← → vehicles, ↑ ↓ reaction time. A new number starts again, with as many ${each ? 'in every lane' : 'in the one lane of the start'}.`,
+    value: (n: number, lane: number | null, delta: number, state: string): string =>
+      `${n} vehicles${lane === null ? '' : ` in lane ${lane}`}, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
     drag: 'drag the point',
     /** A curve and its value at the point's N. */
     discrete: (s: number | null): string => `τ in steps: ${tau(s)}`,
     continuous: (s: number | null): string => `τ continuous: ${tau(s)}`,
     newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
-    describe: (n: number, discrete: number | null, continuous: number | null, newell: number | null): string =>
-      `The plane of vehicles and reaction time. With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`,
-    common: 'The curves are those of the drivers without an exception.',
+    describe: (n: number, lane: number | null, discrete: number | null, continuous: number | null, newell: number | null): string =>
+      `The plane of vehicles${lane === null ? '' : ` in lane ${lane}`} and reaction time. ${discrete === null && continuous === null ? `With ${n} vehicles nothing moves: a jam.` : `With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`}`,
+    /** Where drivers differ. */
+    titleAlike: 'If drivers were alike',
+    alike: 'The drivers of this ring differ. The plane is for drivers alike: those without an exception.',
+    ground: 'What the plane shows',
+    grounds: { regions: 'regions', steps: 'growth rate', continuous: 'continuous growth rate' },
+    every: 'modes',
+    everyHint: 'The critical reaction time of every single mode: of the run’s steps, or of continuous time with the continuous growth rate',
+    map: (part: number): string =>
+      part < 1 ? `Growth rates: ${fixed(100 * part, 0)} % computed.` : 'Colours show the largest growth rate, from blue, fading, to orange, growing.',
+    rate: (rate: number): string => (rate > 0 ? `+${rate}` : fixed(rate, 2)),
+    rateUnit: '1/s',
   },
 
   roots: {
@@ -332,12 +360,17 @@ export const en = {
     measured: 'measured',
     waiting: (t: number): string => `Measuring from t = ${unit(fixed(t, 1), 's')} on …`,
     quiet: 'No wave to measure: nudge a car.',
-    linear: (from: number): string => `Linear since t = ${unit(fixed(from, 1), 's')}.`,
-    left: (to: number): string => `Left the linear regime at t = ${unit(fixed(to, 1), 's')}.`,
+    linear: (from: number, bound: number | null): string =>
+      `Linear since t = ${unit(fixed(from, 1), 's')}${bound === null ? '' : `, within ±${unit(short(bound), '1/s')}`}.`,
+    left: (to: number, bound: number | null): string =>
+      `Left the linear regime at t = ${unit(fixed(to, 1), 's')}${bound === null ? '' : `; until then within ±${unit(short(bound), '1/s')}`}.`,
     disturbed: (to: number): string => `Disturbed at t = ${unit(fixed(to, 1), 's')}.`,
     faded: (to: number): string => `Faded into rounding at t = ${unit(fixed(to, 1), 's')}.`,
     large: 'Waves are too large now for linear theory.',
-    differ: 'Drivers differ: the modes mix, and theory knows the ring as a whole.',
+    differ: 'Drivers differ: modes mix.',
+    differHint: 'Theory: the ring’s roots, each followed from the mode of equal drivers.',
+    none: 'Nothing moves here: no waves.',
+    bound: 'The waves’ size may have moved the rate by so much at most.',
     one: (mode: number, rate: number, predicted: number | null): string =>
       `mode ${mode}: ${exactly(rate, 4)}${predicted === null ? '' : ` against ${exactly(predicted, 4)}`}`,
     describe: (list: string): string => (list === '' ? 'Growth of each mode: nothing measured yet.' : `Growth per second, measured against theory: ${list}.`),

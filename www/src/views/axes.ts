@@ -90,6 +90,39 @@ export function word(c: CanvasRenderingContext2D, label: string, x: number, y: n
 
 export const frame = (w: number, h: number, left: number): Frame => ({ left, top: 25, right: w - 8, bottom: h - 36 })
 
+/** Height that a word needs, px. */
+export const WORD = 20
+
+/**
+ * The middle of a word above or below a curve, as far right as it has room and leaves a point free; null where there is no such
+ * place. `heights` are the curve's, pixel by pixel from x = 0; `half` is half of the word's width.
+ */
+export function spot(heights: readonly number[], half: number, above: boolean, top: number, bottom: number, free: { x: number; y: number }): { x: number; y: number } | null {
+  for (let x = heights.length - 1 - half; x >= half; x--) {
+    const part = heights.slice(x - half, x + half + 1)
+    const gap = above ? Math.min(...part) - top : bottom - Math.max(...part)
+    const y = above ? top + Math.min(16, gap / 2) : bottom - Math.min(14, gap / 2)
+    const near = Math.abs(x - free.x) < half + WORD && Math.abs(y - free.y) < 1.5 * WORD
+    if (gap >= WORD && !near) return { x, y }
+  }
+  return null
+}
+
+/** A sentence in a picture that has nothing to show, in lines as wide as it. */
+export function say(c: CanvasRenderingContext2D, sentence: string, w: number, h: number): void {
+  c.font = FONT
+  c.fillStyle = style('--soft')
+  c.textAlign = 'left'
+  c.textBaseline = 'middle'
+  const lines = ['']
+  for (const part of sentence.split(' ')) {
+    const longer = `${lines.at(-1)} ${part}`.trim()
+    if (c.measureText(longer).width < w - 8) lines[lines.length - 1] = longer
+    else lines.push(part)
+  }
+  lines.forEach((line, k) => c.fillText(line, 2, h / 2 + 18 * (k - (lines.length - 1) / 2)))
+}
+
 /** The same in little height; with `name` there is room for that of the y axis. */
 export const flat = (w: number, h: number, left: number, name: string): Frame =>
   ({ left, top: name === '' ? 8 : 20, right: w - 6, bottom: h - 21, flat: true })

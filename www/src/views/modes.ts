@@ -2,19 +2,22 @@
 import { drawing, el, style } from '../dom'
 import type { ModesGrowth, Roots } from '../shared/protocol'
 import { text } from '../text'
-import { axes, frame, roundSteps, ticks, word } from './axes'
+import { axes, frame, roundSteps, say, ticks, word } from './axes'
 
 const t = text.modes
 
 /** What the run has to say of the mode that theory calls the fastest. */
 function status(measured: ModesGrowth, alike: boolean, fastest: number | null, time: number): string {
+  if (fastest === null) return ''
   const lead = measured.modes.find(m => m.mode === fastest)
-  if (!lead) return ''
+  if (!lead) return time < measured.starts ? t.waiting(measured.starts) : ''
   if (lead.from === null || lead.to === null) {
     if (time < measured.starts) return t.waiting(measured.starts)
     return lead.ended_by === 'sank into rounding' ? t.quiet : t.large
   }
-  const ended = { 'end of the run': t.linear(lead.from), 'left the linear regime': t.left(lead.to), disturbed: t.disturbed(lead.to), 'sank into rounding': t.faded(lead.to) }[lead.ended_by]
+  // What the waves' size may have done, and the scatter.
+  const error = lead.nonlinear_bound === null || lead.standard_error === null ? null : lead.nonlinear_bound + 2 * lead.standard_error
+  const ended = { 'end of the run': t.linear(lead.from, error), 'left the linear regime': t.left(lead.to, error), disturbed: t.disturbed(lead.to), 'sank into rounding': t.faded(lead.to) }[lead.ended_by]
   return [ended ?? '', alike ? '' : t.differ].join(' ').trim()
 }
 
@@ -26,21 +29,24 @@ export function modesView() {
     { id: 'modes', 'aria-labelledby': 'modes-title' },
     el('h3', { id: 'modes-title' }, t.title),
     el('div', { class: 'field' }, canvas),
-    el('div', { class: 'keys marks' }, el('span', { class: 'theory' }, t.predicted), el('span', { class: 'measured-mark' }, t.measured)),
+    el('div', { class: 'keys marks' }, el('span', { class: 'theory', title: t.differHint }, t.predicted), el('span', { class: 'measured-mark', title: t.bound }, t.measured)),
     said,
   )
   let theory: Roots | null = null
   let measured: ModesGrowth | null = null
   const redraw = drawing(canvas, (c, w, h) => {
-    if (!theory || !measured || measured.modes.length === 0) return
+    if (!theory || !measured) return
+    if (theory.modes.length === 0) {
+      say(c, t.none, w, h)
+      return
+    }
+    if (measured.modes.length === 0) return
     const count = measured.modes.length
-    const predicted = theory.equal_drivers
-      ? theory.modes.flatMap((mode, k) => {
-          const rate = theory!.growth_per_s[k]
-          return mode <= count && typeof rate === 'number' ? [{ mode, rate }] : []
-        })
-      : []
-    const dots = measured.modes.flatMap(m => (m.rate === null ? [] : [{ mode: m.mode, rate: m.rate, error: m.standard_error ?? 0 }]))
+    const predicted = theory.modes.flatMap((mode, k) => {
+      const rate = theory!.growth_per_s[k]
+      return mode <= count && typeof rate === 'number' ? [{ mode, rate }] : []
+    })
+    const dots = measured.modes.flatMap(m => (m.rate === null ? [] : [{ mode: m.mode, rate: m.rate, error: m.standard_error ?? 0, bound: m.nonlinear_bound ?? 0 }]))
     const rates = [0, ...predicted.map(p => p.rate), ...dots.map(d => d.rate)]
     const span = Math.max(Math.max(...rates) - Math.min(...rates), 1e-4)
     const low = Math.min(...rates) - 0.08 * span
@@ -77,6 +83,9 @@ export function modesView() {
     c.strokeStyle = c.fillStyle = style('--ink')
     for (const d of dots) {
       const [px, py] = [x(d.mode), y(d.rate)]
+      c.globalAlpha = 0.22
+      c.fillRect(px - 3, y(d.rate + d.bound), 6, y(d.rate - d.bound) - y(d.rate + d.bound))
+      c.globalAlpha = 1
       c.beginPath()
       c.moveTo(px, y(d.rate - d.error))
       c.lineTo(px, y(d.rate + d.error))
@@ -102,7 +111,7 @@ export function modesView() {
       theory = roots
       measured = growth
       const alike = roots.equal_drivers
-      const list = growth.modes.flatMap(m => (m.rate === null ? [] : [t.one(m.mode, m.rate, alike ? m.predicted : null)]))
+      const list = growth.modes.flatMap(m => (m.rate === null ? [] : [t.one(m.mode, m.rate, m.predicted)]))
       canvas.setAttribute('aria-label', t.describe(list.join('; ')))
       const words = status(growth, alike, fastest, time)
       if (said.textContent !== words) said.textContent = words

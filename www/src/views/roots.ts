@@ -3,7 +3,7 @@
 import { drawing, el, style } from '../dom'
 import type { Roots } from '../shared/protocol'
 import { text } from '../text'
-import { axes, frame, ticks, word } from './axes'
+import { axes, frame, say, ticks, word } from './axes'
 
 const t = text.roots
 /** Where the logarithm begins, 1/s. */
@@ -38,9 +38,7 @@ export function rootsView() {
     const next = roots.next.map(root => ({ re: root.real_per_s, im: Math.abs(root.imaginary_per_s) }))
     const all = [...leading, ...next]
     if (all.length === 0) {
-      c.font = '13px system-ui, sans-serif'
-      c.fillStyle = style('--ink')
-      c.fillText(t.none, 4, h / 2)
+      say(c, t.none, w, h)
       return
     }
     const low = log(Math.min(-0.1, ...all.map(r => r.re)) * 1.5, REAL)

@@ -30,10 +30,10 @@ export function stabilityView(session: Session, preview: (v: Verdict | null) => 
     const { scenario, driver, verdict, changes } = session.snapshot
     const { length, lanes, time_step, start, vehicles, exceptions } = scenario
     const road = [length, lanes, time_step, start, vehicles, driver]
-    const curves = JSON.stringify(road)
+    const curves = JSON.stringify([road, exceptions, verdict.lane, verdict.vehicles, verdict.alike])
     if (curves !== curvesOf) {
       curvesOf = curves
-      plane.curves(await session.client.ask('plane', {}))
+      plane.of(await session.client.ask('plane', {}))
     }
     const lane = JSON.stringify([road, exceptions, verdict, changes])
     if (lane !== rootsOf) {

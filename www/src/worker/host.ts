@@ -6,6 +6,8 @@ import type { Answer, Ask, Frame, Name, Opened, Snapshot } from '../shared/proto
 
 /** Milliseconds of a slice of a long computation. */
 const SLICE = 12
+/** Of a slice of the map of growth rates, which is done beside the traffic. */
+const MAP_SLICE = 6
 
 type Progress = (part: number) => void
 type Answers = { [K in Name]: (ask: Ask<K>, progress: Progress) => Answer<K> | Promise<Answer<K>> }
@@ -13,6 +15,8 @@ type Answers = { [K in Name]: (ask: Ask<K>, progress: Progress) => Answer<K> | P
 export class Host {
   #lab: Lab | undefined
   #cancelled = false
+  /** Which map of growth rates goes on. */
+  #map = 0
   /** Steps that take about a millisecond: measured, since it depends on vehicles and machine. */
   #chunk = 16
 
@@ -104,8 +108,32 @@ export class Host {
       return this.#snapshot()
     },
     preview: ({ name, value }) => JSON.parse(this.#core.preview(name, value)),
-    previewPoint: ({ vehicles, reactionTime }) => JSON.parse(this.#core.preview_point(String(vehicles), String(reactionTime))),
-    plane: () => JSON.parse(this.#core.plane()),
+    previewPoint: ({ vehicles, reactionTime }) => JSON.parse(this.#core.preview_point(vehicles?.toString(), String(reactionTime))),
+    plane: () => {
+      const [jam, reaction_time, ...all] = this.#core.plane()
+      const count = all.length / 4
+      const column = (k: number) => all.slice(k * count, (k + 1) * count).map(v => (Number.isFinite(v) ? v : null))
+      const curves = { vehicles: all.slice(0, count), continuous_s: column(1), discrete_s: column(2), newell_s: column(3) }
+      return { jam: jam!, reaction_time: reaction_time!, curves }
+    },
+    planeModes: ({ steps }) => this.#core.plane_modes(steps),
+    growthRates: async ({ vehicles, highest, count, steps, budget }) => {
+      const job = ++this.#map
+      const end = performance.now() + budget
+      const rates = new Float64Array(vehicles.length * count)
+      let done = 0
+      do {
+        const slice = performance.now() + MAP_SLICE
+        do rates.set(this.#core.growth_rates(vehicles[done]!, highest, count, steps), done++ * count)
+        while (done < vehicles.length && performance.now() < slice)
+        await new Promise(resolve => setTimeout(resolve))
+      } while (done < vehicles.length && performance.now() < end && job === this.#map)
+      return rates.slice(0, done * count)
+    },
+    haltGrowthRates: () => {
+      this.#map++
+      return null
+    },
     roots: () => JSON.parse(this.#core.roots()),
     modes: () => JSON.parse(this.#core.modal_growth()),
     seek: async ({ time }, progress) => {
