@@ -1,6 +1,7 @@
 //! What the page's stability tab asks for: curves, roots, and the growth of every mode.
 
-use super::{Lab, refusal, verdict};
+use super::laboratory::{Lab, verdict};
+use super::refusal;
 use crate::stability::plane::{curves, numbers};
 use serde_json::json;
 use wasm_bindgen::JsError;

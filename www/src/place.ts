@@ -1,8 +1,12 @@
-// What lies beside the page: the compiled core, and the script for the worker. The one-file page takes
+// What lies beside the page: the compiled modules of the core, and the script for the worker. The one-file page takes
 // place.inline.ts instead: the build replaces the name '../place', so only files one folder down may import it.
-import url from '../pkg/ringroad_bg.wasm?url'
+import figures from '../pkg-figures/figures_bg.wasm?url'
+import laboratory from '../pkg/ringroad_bg.wasm?url'
 
-export const wasmBytes = async (): Promise<ArrayBuffer> => {
+const urls = { laboratory, figures }
+
+export const wasmBytes = async (module: keyof typeof urls): Promise<ArrayBuffer> => {
+  const url = urls[module]
   const response = await fetch(url)
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`)
   return response.arrayBuffer()

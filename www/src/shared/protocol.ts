@@ -303,7 +303,8 @@ export interface Requests {
   /** Replays the run so far and measures it. */
   csv: { ask: { measurement: string }; answer: string }
   cancel: { ask: Record<string, never>; answer: null }
-  figures: { ask: Record<string, never>; answer: readonly FigureInfo[] }
+  /** Starts the figures' module; the next two need it. */
+  figures: { ask: { wasm: ArrayBuffer }; answer: readonly FigureInfo[] }
   /** One piece of a figure's work, from 0. */
   piece: { ask: { figure: string; piece: number }; answer: Float64Array }
   /** All pieces put together. */
