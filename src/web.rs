@@ -8,11 +8,11 @@
 #![allow(clippy::needless_pass_by_value)]
 
 #[cfg(feature = "figures")]
-mod figures;
+pub mod figures;
 #[cfg(feature = "laboratory")]
-mod laboratory;
+pub mod laboratory;
 #[cfg(feature = "laboratory")]
-mod theory;
+pub mod theory;
 
 #[cfg(any(feature = "figures", feature = "laboratory"))]
 fn refusal(e: crate::error::Invalid) -> wasm_bindgen::JsError {

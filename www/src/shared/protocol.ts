@@ -158,8 +158,8 @@ export interface Frame {
   readonly distances: Float64Array
   /** Length and minimum headway of every vehicle, pair after pair, m. */
   readonly sizes: Float64Array
-  readonly lanes: Uint8Array
-  readonly laneChanges: Uint32Array
+  readonly lanes: Float64Array
+  readonly laneChanges: Float64Array
   /** Red, green, blue of every vehicle. */
   readonly colours: Uint8Array
   /** Rows since the frame before: time, mean speed, flow, ΔN, then the watched vehicles' speeds. */
