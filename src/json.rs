@@ -53,7 +53,7 @@ impl Object {
     }
 
     /// Reads a text that must be an object; a refusal names `what` it is.
-    pub fn read(what: &str, text: &str) -> Result<Self, Invalid> {
+    pub fn read(what: &'static str, text: &str) -> Result<Self, Invalid> {
         match text.parse() {
             Ok(Json::Object(object)) => Ok(object),
             Ok(other) => Err(Invalid::new(what, other, "a JSON object")),
@@ -211,10 +211,9 @@ impl FromStr for Json {
     fn from_str(text: &str) -> Result<Self, Broken> {
         let mut reader = Reader { text, at: 0 };
         reader.document().map_err(|what| {
-            let before = &text.as_bytes()[..reader.at.min(text.len())];
-            let start = before.iter().rposition(|&b| b == b'\n').map_or(0, |k| k + 1);
-            let line = 1 + before.iter().filter(|&&b| b == b'\n').count();
-            Broken { what, line, column: reader.at - start + 1 }
+            let lines = text.as_bytes()[..reader.at].split(|&b| b == b'\n');
+            let column = 1 + lines.clone().next_back().map_or(0, <[u8]>::len);
+            Broken { what, line: lines.count(), column }
         })
     }
 }

@@ -460,7 +460,8 @@ impl Measurement {
         Self::from_object(&resolved.to_object())?;
         for (name, value) in resolved.to_object().iter() {
             let number = value.as_number().unwrap_or(0.0);
-            let refuse = |allowed: String| Err(Invalid::new(name, value, allowed).within(self.name()));
+            let refuse =
+                |allowed: String| Err(Invalid::new(name.to_owned(), value, allowed).within(self.name()));
             let most = |limit: usize, what: &str| {
                 if number > limit as f64 { refuse(format!("at most {limit}, {what}")) } else { Ok(()) }
             };
@@ -473,7 +474,7 @@ impl Measurement {
                     let numbers = value.as_list().into_iter().flatten();
                     match numbers.filter_map(Json::as_number).find(|&n| n > scenario.vehicles as f64) {
                         Some(n) => Err(Invalid::new(
-                            name,
+                            name.to_owned(),
                             n,
                             format!("at most {}, the number of vehicles", scenario.vehicles),
                         )

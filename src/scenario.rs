@@ -189,8 +189,11 @@ impl Scenario {
 
     /// Actions with their places in the list, in the order in which they happen.
     pub(crate) fn actions_in_time(&self) -> Vec<(u64, usize)> {
-        let mut order: Vec<_> = self.actions.iter().enumerate().map(|(k, a)| (self.steps(a.at), k)).collect();
-        order.sort_unstable();
+        let mut order: Vec<(u64, usize)> = Vec::with_capacity(self.actions.len());
+        for (k, action) in self.actions.iter().enumerate() {
+            let step = self.steps(action.at);
+            order.insert(order.partition_point(|&(s, _)| s <= step), (step, k));
+        }
         order
     }
 
@@ -385,7 +388,7 @@ fn read_number(parameter: &Parameter, value: &Json) -> Result<f64, Invalid> {
     value.as_number().ok_or_else(|| Invalid::new(parameter.name, value, parameter.allowed()))
 }
 
-fn read_texts<T: FromStr<Err = Invalid>>(field: &str, value: &Json) -> Result<Vec<T>, Invalid> {
+fn read_texts<T: FromStr<Err = Invalid>>(field: &'static str, value: &Json) -> Result<Vec<T>, Invalid> {
     let list = value.as_list().ok_or_else(|| Invalid::new(field, value, "a list of texts"))?;
     let one = |(k, item): (usize, &Json)| {
         let text =

@@ -10,6 +10,7 @@ use crate::error::Invalid;
 use crate::measurement::Measurement;
 use crate::parameters::quoted;
 use crate::scenario::Scenario;
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// The values of a column.
@@ -27,11 +28,11 @@ pub enum Values {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Name, with the unit at its end: `speed_m_per_s`.
-    pub name: String,
+    pub name: Cow<'static, str>,
     /// Unit, empty for a pure number or text.
     pub unit: &'static str,
     /// What it holds, in one line.
-    pub meaning: String,
+    pub meaning: Cow<'static, str>,
     /// The values, one a row.
     pub values: Values,
 }
@@ -39,24 +40,28 @@ pub struct Column {
 impl Column {
     /// A column of numbers.
     pub fn float(
-        name: impl Into<String>,
+        name: impl Into<Cow<'static, str>>,
         unit: &'static str,
-        meaning: impl Into<String>,
+        meaning: impl Into<Cow<'static, str>>,
         values: Vec<f64>,
     ) -> Self {
         Self { name: name.into(), unit, meaning: meaning.into(), values: Values::Float(values) }
     }
     /// A column of whole numbers.
     pub fn whole(
-        name: impl Into<String>,
+        name: impl Into<Cow<'static, str>>,
         unit: &'static str,
-        meaning: impl Into<String>,
+        meaning: impl Into<Cow<'static, str>>,
         values: Vec<u64>,
     ) -> Self {
         Self { name: name.into(), unit, meaning: meaning.into(), values: Values::Whole(values) }
     }
     /// A column of text.
-    pub fn text(name: impl Into<String>, meaning: impl Into<String>, values: Vec<String>) -> Self {
+    pub fn text(
+        name: impl Into<Cow<'static, str>>,
+        meaning: impl Into<Cow<'static, str>>,
+        values: Vec<String>,
+    ) -> Self {
         Self { name: name.into(), unit: "", meaning: meaning.into(), values: Values::Text(values) }
     }
     /// Number of values.
