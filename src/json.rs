@@ -231,6 +231,10 @@ impl Reader<'_> {
         if self.peek().is_some() { Err("something after the end") } else { Ok(value) }
     }
 
+    fn rest(&self) -> &str {
+        self.text.get(self.at..).unwrap_or_default()
+    }
+
     fn peek(&self) -> Option<u8> {
         self.text.as_bytes().get(self.at).copied()
     }
@@ -261,7 +265,7 @@ impl Reader<'_> {
             Some(b'-' | b'0'..=b'9') => self.number(),
             _ => {
                 let words = [("null", Json::Null), ("true", Json::Bool(true)), ("false", Json::Bool(false))];
-                let found = words.into_iter().find(|(word, _)| self.text[self.at..].starts_with(word));
+                let found = words.into_iter().find(|(word, _)| self.rest().starts_with(word));
                 let (word, value) = found.ok_or("no value")?;
                 self.at += word.len();
                 Ok(value)
@@ -337,20 +341,18 @@ impl Reader<'_> {
             let _ = self.take(b'+') || self.take(b'-');
             self.digits()?;
         }
-        match self.text[start..self.at].parse() {
-            Ok(x) if f64::is_finite(x) => Ok(Json::Number(x)),
-            _ => Err("number out of range"),
-        }
+        let number = self.text.get(start..self.at).and_then(|text| text.parse().ok());
+        number.filter(|x| f64::is_finite(*x)).map(Json::Number).ok_or("number out of range")
     }
 
     fn string(&mut self) -> Result<String, &'static str> {
         self.at += 1;
         let mut out = String::new();
         loop {
-            let rest = &self.text[self.at..];
-            let plain = rest.bytes().position(|b| b == b'"' || b == b'\\' || b < 0x20).unwrap_or(rest.len());
-            out.push_str(&rest[..plain]);
-            self.at += plain;
+            let rest = self.rest();
+            let end = rest.find(|c| c == '"' || c == '\\' || c < ' ').unwrap_or(rest.len());
+            out.push_str(rest.get(..end).unwrap_or_default());
+            self.at += end;
             if self.take(b'"') {
                 return Ok(out);
             }

@@ -10,7 +10,6 @@ use crate::error::Invalid;
 use crate::measurement::Measurement;
 use crate::parameters::quoted;
 use crate::scenario::Scenario;
-use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// The values of a column.
@@ -28,11 +27,11 @@ pub enum Values {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Name, with the unit at its end: `speed_m_per_s`.
-    pub name: Cow<'static, str>,
+    pub name: String,
     /// Unit, empty for a pure number or text.
     pub unit: &'static str,
     /// What it holds, in one line.
-    pub meaning: Cow<'static, str>,
+    pub meaning: String,
     /// The values, one a row.
     pub values: Values,
 }
@@ -40,28 +39,24 @@ pub struct Column {
 impl Column {
     /// A column of numbers.
     pub fn float(
-        name: impl Into<Cow<'static, str>>,
+        name: impl Into<String>,
         unit: &'static str,
-        meaning: impl Into<Cow<'static, str>>,
+        meaning: impl Into<String>,
         values: Vec<f64>,
     ) -> Self {
         Self { name: name.into(), unit, meaning: meaning.into(), values: Values::Float(values) }
     }
     /// A column of whole numbers.
     pub fn whole(
-        name: impl Into<Cow<'static, str>>,
+        name: impl Into<String>,
         unit: &'static str,
-        meaning: impl Into<Cow<'static, str>>,
+        meaning: impl Into<String>,
         values: Vec<u64>,
     ) -> Self {
         Self { name: name.into(), unit, meaning: meaning.into(), values: Values::Whole(values) }
     }
     /// A column of text.
-    pub fn text(
-        name: impl Into<Cow<'static, str>>,
-        meaning: impl Into<Cow<'static, str>>,
-        values: Vec<String>,
-    ) -> Self {
+    pub fn text(name: impl Into<String>, meaning: impl Into<String>, values: Vec<String>) -> Self {
         Self { name: name.into(), unit: "", meaning: meaning.into(), values: Values::Text(values) }
     }
     /// Number of values.
@@ -237,9 +232,8 @@ fn write_number(out: &mut String, value: f64) {
     if value.is_nan() {
         return;
     }
-    let start = out.len();
     let _ = write!(out, "{value:?}");
-    if out[start..].ends_with(".0") {
+    if out.ends_with(".0") {
         out.truncate(out.len() - 2);
     }
 }

@@ -330,7 +330,7 @@ fn every_measurement_has_the_columns_that_were_announced() {
         let mut simulation = ringroad::simulation::Simulation::new(&scenario).unwrap();
         ringroad::probe::measure(&mut simulation, &mut probes, &mut |_| true);
         let names = |columns: &[ringroad::table::Column]| -> Vec<String> {
-            columns.iter().map(|c| c.name.to_string()).collect()
+            columns.iter().map(|c| c.name.clone()).collect()
         };
         assert_eq!(names(&plan.columns()), names(probes[0].table().columns()), "{}", measurement.name());
         let (runs, header) = (all(&plan), Header::new(plan.clone(), Shard::default(), false));

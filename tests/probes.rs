@@ -32,7 +32,7 @@ fn delayed(reaction_time: f64, until: f64) -> Scenario {
 fn trajectories_have_a_row_for_each_vehicle_and_time() {
     let scenario = Scenario { vehicles: 3, until: 2.5, ..Scenario::default() };
     let t = table(&scenario, r#"{"table":"trajectories"}"#);
-    let names: Vec<_> = t.columns().iter().map(|c| &*c.name).collect();
+    let names: Vec<_> = t.columns().iter().map(|c| c.name.as_str()).collect();
     assert_eq!(
         names.join(","),
         "time_s,vehicle,lane,position_m,speed_m_per_s,headway_m,perceived_headway_m,frustration,distance_m,lane_changes"

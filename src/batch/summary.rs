@@ -77,11 +77,11 @@ impl Plan {
         self.check_summary()?;
         let keys = keys(self.measurement()).unwrap_or_default();
         let columns = self.columns();
-        let is_key = |column: &Column| keys.contains(&&*column.name);
+        let is_key = |column: &Column| keys.contains(&column.name.as_str());
         let key_places: Vec<usize> = (0..columns.len()).filter(|&k| is_key(&columns[k])).collect();
         let measured: Vec<usize> = (0..columns.len())
             .filter(|&k| {
-                let known = OF_EVERY_RUN.contains(&&*columns[k].name);
+                let known = OF_EVERY_RUN.contains(&columns[k].name.as_str());
                 !is_key(&columns[k]) && !known && !matches!(columns[k].values, Values::Text(_))
             })
             .collect();

@@ -4,7 +4,6 @@ use super::plan::Plan;
 use super::run::Run;
 use crate::parameters::Parameter;
 use crate::table::{Column, Table, Values};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// What is known of every run; a measurement with a column of that name says the same again.
@@ -30,7 +29,7 @@ impl Plan {
         columns.push(Column::text(outcome, "collision, or the end asked for", outcomes));
         columns.push(Column::float(end, "s", "time at which the run ended", ends));
         for (k, column) in self.columns().into_iter().enumerate() {
-            if OF_EVERY_RUN.contains(&&*column.name) {
+            if OF_EVERY_RUN.contains(&column.name.as_str()) {
                 continue;
             }
             let mut values = column.values;
@@ -58,7 +57,7 @@ impl Plan {
     }
 
     /// The name of a measured column: its own, where that is not a varied parameter's.
-    pub(super) fn distinct(&self, name: Cow<'static, str>) -> Cow<'static, str> {
+    pub(super) fn distinct(&self, name: String) -> String {
         if self.vary().iter().any(|v| column_name(v.parameter()) == name) { name + "_measured" } else { name }
     }
 }

@@ -300,7 +300,11 @@ impl Lab {
     /// Lengths of the vehicles and their minimum headways, m, one pair after another.
     pub fn sizes(&self) -> Vec<f64> {
         let s = self.live.simulation();
-        (0..s.vehicles()).flat_map(|j| [s.driver(j).vehicle_length, s.driver(j).min_headway]).collect()
+        let mut sizes = Vec::with_capacity(2 * s.vehicles());
+        for j in 0..s.vehicles() {
+            sizes.extend([s.driver(j).vehicle_length, s.driver(j).min_headway]);
+        }
+        sizes
     }
     /// Red, green, blue of every vehicle.
     pub fn colours(&self) -> Vec<u8> {
@@ -311,7 +315,11 @@ impl Lab {
             Quantity::Speed => s.speed(j),
             Quantity::Frustration => s.frustration(j),
         };
-        (0..s.vehicles()).flat_map(|j| scale.colour(value(j))).collect()
+        let mut colours = Vec::with_capacity(3 * s.vehicles());
+        for j in 0..s.vehicles() {
+            colours.extend(scale.colour(value(j)));
+        }
+        colours
     }
     /// Rows since this was last asked: time (s), mean speed (m/s), flow (veh/s), ΔN, speeds of the watched
     /// vehicles (m/s), row after row.
