@@ -1,8 +1,9 @@
 // The compiled modules of the core inside the page, as base64, and the page's own script from the page.
-import figures from '../pkg-figures/figures_bg.wasm?url&inline'
-import laboratory from '../pkg/ringroad_bg.wasm?url&inline'
+import figuresUrl from '../pkg-figures/figures_bg.wasm?url&inline'
+import laboratoryUrl from '../pkg/ringroad_bg.wasm?url&inline'
+import * as figuresDoor from './worker/figures'
 
-const urls = { laboratory, figures }
+const urls = { laboratory: laboratoryUrl, figures: figuresUrl }
 
 // `atob`, since fetching a data: address needs the policy `connect-src data:`, which few pages grant.
 export const wasmBytes = async (module: keyof typeof urls): Promise<ArrayBuffer> => {
@@ -15,3 +16,6 @@ export const startWorker = (): Worker => {
   const script = document.querySelector('script[type=module]')?.textContent ?? ''
   return new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })))
 }
+
+/** Not by `import()`: what the build makes of it is not allowed in a classic worker. */
+export const figures = async () => figuresDoor

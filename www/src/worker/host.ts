@@ -2,13 +2,11 @@
 // whoever shares its thread stays alive. It computes nothing; it asks the compiled core.
 import { Export, Lab, initSync, parameters, presets, version } from '../../pkg/ringroad.js'
 import { CANCELLED } from '../client/client'
+import { figures } from '../place'
 import type { Answer, Ask, Frame, Name, Opened, Snapshot } from '../shared/protocol'
 
 /** Milliseconds of a slice of a long computation. */
 const SLICE = 12
-
-/** The paper's figures are a module of their own, which the laboratory does without. */
-const figures = () => import('./figures')
 
 type Progress = (part: number) => void
 type Answers = { [K in Name]: (ask: Ask<K>, progress: Progress) => Answer<K> | Promise<Answer<K>> }
