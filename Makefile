@@ -24,7 +24,7 @@ export WASM_BINDGEN_TEST_TIMEOUT := 300
 export PATH := $(CURDIR)/www/node_modules/.bin:$(or $(CARGO_HOME),$(HOME)/.cargo)/bin:$(PATH)
 
 PYTHON := .venv/bin/python
-WASM := --target wasm32-unknown-unknown --no-default-features
+WASM := --target wasm32-unknown-unknown --no-default-features --features laboratory,figures
 NPM := npm --prefix www
 # A runner's output goes to the terminal and to a log, from which `make test` repeats the runner's own summary.
 LOGS := target/log
@@ -70,7 +70,7 @@ screenshot: build | setup-test ## take docs/lab.png anew
 	$(NPM) run screenshot
 
 clean: ## remove what was built
-	rm -rf dist www/pkg www/test-results target
+	rm -rf dist www/pkg www/pkg-figures www/test-results target
 
 distclean: clean ## remove what was installed into this folder, too
 	rm -rf www/node_modules .venv
@@ -92,14 +92,20 @@ www/node_modules/.package-lock.json: www/package.json www/package-lock.json | se
 	$(NPM) ci --no-audit --no-fund
 	@touch $@
 
+# Two WebAssembly modules from one core: the laboratory's, and the paper's figures', which the laboratory never loads.
+MODULES := www/pkg/ringroad_bg.wasm www/pkg-figures/figures_bg.wasm
+www/pkg/ringroad_bg.wasm: FEATURE := laboratory
+www/pkg-figures/figures_bg.wasm: FEATURE := figures
+
 # For size: it downloads faster. At level 3 it is about 25 kB larger, gzipped, and steps about 1.7 times as fast.
-www/pkg/ringroad_bg.wasm: $(CORE) | www/node_modules/.package-lock.json setup
+$(MODULES): $(CORE) | www/node_modules/.package-lock.json setup
 	@command -v wasm-opt >/dev/null || { echo 'wasm-opt is missing: the package binaryen of www/package.json brings it' >&2; exit 1; }
-	CARGO_PROFILE_RELEASE_OPT_LEVEL=s wasm-pack build --target web --out-dir www/pkg -- --locked --no-default-features
+	CARGO_PROFILE_RELEASE_OPT_LEVEL=s wasm-pack build --target web --out-dir $(@D) --out-name $(@F:_bg.wasm=) \
+		-- --locked --no-default-features --features $(FEATURE)
 	@touch $@
 
 # One file last: when it is there, the whole of dist/ is.
-dist/ringroad.html: www/pkg/ringroad_bg.wasm www/node_modules/.package-lock.json $(PAGE)
+dist/ringroad.html: $(MODULES) www/node_modules/.package-lock.json $(PAGE)
 	$(NPM) run build
 	@touch $@
 
@@ -143,10 +149,10 @@ test-rust: # with the tests in the documentation and in the README
 test-csv: target/release/ringroad .venv/.installed
 	$(PYTHON) -m unittest discover --start-directory tests/python --pattern '*.py' $(LOG)
 
-test-types: www/pkg/ringroad_bg.wasm
+test-types: $(MODULES)
 	$(NPM) run typecheck
 
-test-units: www/pkg/ringroad_bg.wasm
+test-units: $(MODULES)
 	$(NPM) test $(LOG)
 
 test-size: build

@@ -12,7 +12,8 @@ mod cases {
     use ringroad::scenario::Scenario;
     use ringroad::simulation::Simulation;
     use ringroad::vector::Width;
-    use serde::Deserialize;
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer};
     use std::hint::black_box;
     use std::time::Duration;
 
@@ -25,7 +26,13 @@ mod cases {
         name: String,
         /// Steps before the clock starts.
         warm_up: u64,
+        #[serde(deserialize_with = "scenario")]
         scenario: Scenario,
+    }
+
+    fn scenario<'de, D: Deserializer<'de>>(json: D) -> Result<Scenario, D::Error> {
+        let json = serde_json::Value::deserialize(json)?.to_string();
+        Scenario::from_json(&json).map_err(D::Error::custom)
     }
 
     fn cases() -> Vec<Case> {

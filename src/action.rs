@@ -144,7 +144,8 @@ fn assignment(text: &str) -> Result<(&str, f64), Invalid> {
         .split_once('=')
         .ok_or_else(|| Invalid::new("effect", quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
     let name = name.trim();
-    let number = value.trim().parse().map_err(|_| Invalid::new(name, quoted(value), "a number"))?;
+    let number =
+        value.trim().parse().map_err(|_| Invalid::new(name.to_owned(), quoted(value), "a number"))?;
     Ok((name, number))
 }
 

@@ -1,28 +1,33 @@
 //! What is wrong with an input: which field, which value, and what would be right.
 
+use std::borrow::Cow;
 use std::fmt;
 
 /// A refused input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Invalid {
     /// The field, as the person who wrote it knows it.
-    pub field: String,
+    pub field: Cow<'static, str>,
     /// The value that was given.
     pub value: String,
     /// What is allowed instead.
-    pub allowed: String,
+    pub allowed: Cow<'static, str>,
 }
 
 impl Invalid {
     /// A refusal of `value` for `field`.
-    pub fn new(field: impl Into<String>, value: impl fmt::Display, allowed: impl Into<String>) -> Self {
+    pub fn new(
+        field: impl Into<Cow<'static, str>>,
+        value: impl fmt::Display,
+        allowed: impl Into<Cow<'static, str>>,
+    ) -> Self {
         Self { field: field.into(), value: value.to_string(), allowed: allowed.into() }
     }
 
     /// The same refusal, seen from further out: `actions[2]: …`.
     #[must_use]
     pub fn within(mut self, place: impl fmt::Display) -> Self {
-        self.field = format!("{place}: {}", self.field);
+        self.field = format!("{place}: {}", self.field).into();
         self
     }
 }

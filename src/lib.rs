@@ -15,6 +15,7 @@
 //! | [`link`] | a scenario as the readable part of a link |
 //! | [`preset`] | scenarios with names |
 //! | [`error`] | what a refusal says |
+//! | [`json`] | JSON, read and written |
 //! | [`random`] | the one source of randomness |
 //! | [`exp`] | the exponential, the same bits everywhere |
 //! | [`driver`] | speed against headway, equilibrium, fundamental diagram |
@@ -48,6 +49,7 @@ pub mod fit;
 pub mod following;
 pub mod frustration;
 pub mod history;
+pub mod json;
 pub mod link;
 pub mod live;
 pub mod measurement;

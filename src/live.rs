@@ -232,8 +232,7 @@ impl Live {
 
     fn plan(&mut self) {
         let scenario = self.simulation.scenario();
-        self.agenda = scenario.actions.iter().map(|a| scenario.steps(a.at)).collect();
-        self.agenda.sort_unstable();
+        self.agenda = scenario.actions_in_time().into_iter().map(|(step, _)| step).collect();
     }
 
     /// Drivers, lanes or positions have changed: theory is asked anew, and growth is measured from now on.

@@ -5,6 +5,7 @@
 //! its default; `null` stands for a default that follows from the scenario, such as the middle of the ring.
 
 use crate::error::Invalid;
+use crate::json::{Json, Object};
 use crate::parameters::quoted;
 use crate::probe::{
     Probe,
@@ -24,7 +25,6 @@ use crate::probe::{
 };
 use crate::scenario::Scenario;
 use serde::Serialize;
-use serde_json::{Map, Value};
 
 /// What is measured. Times are in seconds and round to whole steps; vehicles and lanes are numbered from 1.
 ///
@@ -190,26 +190,26 @@ impl Setting {
         Invalid::new(self.name, value, self.allowed())
     }
 
-    fn check(&self, value: &Value) -> Result<(), Invalid> {
-        let one = |value: &Value| {
+    fn check(&self, value: &Json) -> Result<(), Invalid> {
+        let one = |value: &Json| {
             let inside = |x: f64| x >= self.min && x <= self.max && (!self.whole || x == x.trunc());
-            if value.as_f64().is_some_and(inside) { Ok(()) } else { Err(self.refuse(value)) }
+            if value.as_number().is_some_and(inside) { Ok(()) } else { Err(self.refuse(value)) }
         };
         match value {
-            Value::Array(items) if self.list && !items.is_empty() => items.iter().try_for_each(one),
+            Json::List(items) if self.list && !items.is_empty() => items.iter().try_for_each(one),
             _ if self.list => Err(self.refuse(value)),
             _ => one(value),
         }
     }
 
     /// Reads what a person wrote; a list has commas between its numbers.
-    fn parse(&self, text: &str) -> Result<Value, Invalid> {
+    fn parse(&self, text: &str) -> Result<Json, Invalid> {
         let one = |text: &str| {
             let number: f64 = text.trim().parse().map_err(|_| self.refuse(quoted(text)))?;
-            if number.is_finite() { Ok(number_value(number)) } else { Err(self.refuse(number)) }
+            if number.is_finite() { Ok(Json::from(number)) } else { Err(self.refuse(number)) }
         };
         let value = if self.list {
-            Value::Array(text.split(',').map(one).collect::<Result<_, _>>()?)
+            Json::List(text.split(',').map(one).collect::<Result<_, _>>()?)
         } else {
             one(text)?
         };
@@ -227,33 +227,27 @@ enum Field<'a> {
 }
 
 impl Field<'_> {
-    fn read(&self) -> Value {
-        let whole = |n: usize| Value::from(n);
+    fn read(&self) -> Json {
         match self {
-            Self::Number(x) => number_value(**x),
-            Self::Whole(n) => whole(**n),
-            Self::OptionalNumber(x) => x.map_or(Value::Null, number_value),
-            Self::OptionalWhole(n) => n.map_or(Value::Null, whole),
-            Self::List(list) => list.as_ref().map_or(Value::Null, |l| l.iter().copied().map(whole).collect()),
+            Self::Number(x) => (**x).into(),
+            Self::Whole(n) => (**n).into(),
+            Self::OptionalNumber(x) => (**x).into(),
+            Self::OptionalWhole(n) => (**n).into(),
+            Self::List(list) => list.as_ref().map_or(Json::Null, |l| l.iter().copied().collect()),
         }
     }
 
     /// Writes a value that its [`Setting`] has checked; whole numbers may come as 2.0.
-    fn write(self, value: &Value) {
-        let whole = |v: &Value| v.as_f64().map(|x| x as usize);
+    fn write(self, value: &Json) {
+        let whole = |v: &Json| v.as_number().map(|x| x as usize);
         match self {
-            Self::Number(x) => *x = value.as_f64().unwrap_or(*x),
+            Self::Number(x) => *x = value.as_number().unwrap_or(*x),
             Self::Whole(n) => *n = whole(value).unwrap_or(*n),
-            Self::OptionalNumber(x) => *x = value.as_f64(),
+            Self::OptionalNumber(x) => *x = value.as_number(),
             Self::OptionalWhole(n) => *n = whole(value),
-            Self::List(list) => *list = value.as_array().map(|l| l.iter().filter_map(whole).collect()),
+            Self::List(list) => *list = value.as_list().map(|l| l.iter().filter_map(whole).collect()),
         }
     }
-}
-
-/// A JSON number, whole ones without ".0".
-fn number_value(x: f64) -> Value {
-    if x == x.trunc() && x.abs() < 9.1e15 { Value::from(x as i64) } else { Value::from(x) }
 }
 
 impl Measurement {
@@ -312,13 +306,13 @@ impl Measurement {
 
     /// Time between rows, s, where they come at regular times.
     pub fn every(&self) -> Option<f64> {
-        self.to_map().get("every").and_then(Value::as_f64)
+        self.to_object().get("every").and_then(Json::as_number)
     }
 
     /// The settings that this measurement has.
     pub fn settings(&self) -> Vec<&'static Setting> {
-        let map = self.to_map();
-        SETTINGS.iter().filter(|s| map.contains_key(s.name)).collect()
+        let object = self.to_object();
+        SETTINGS.iter().filter(|s| object.get(s.name).is_some()).collect()
     }
 
     /// The measurement with settings changed as a person wrote them, by the names of the command's options.
@@ -326,7 +320,7 @@ impl Measurement {
         self,
         options: impl IntoIterator<Item = (&'a str, &'a str)>,
     ) -> Result<Self, Invalid> {
-        let mut map = self.to_map();
+        let mut object = self.to_object();
         let settings = self.settings();
         for (option, text) in options {
             let setting = settings.iter().find(|s| s.option == option).ok_or_else(|| {
@@ -338,9 +332,9 @@ impl Measurement {
                     format!("for the table {}: {names}", self.name()),
                 )
             })?;
-            map.insert(setting.name.into(), setting.parse(text)?);
+            object.insert(setting.name, setting.parse(text)?);
         }
-        Self::from_map(&map)
+        Self::from_object(&object)
     }
 
     /// The settings that this measurement has, by their names in JSON.
@@ -384,30 +378,30 @@ impl Measurement {
         }
     }
 
-    fn to_map(&self) -> Map<String, Value> {
-        let mut map = Map::new();
-        map.insert("table".into(), self.name().into());
+    fn to_object(&self) -> Object {
+        let mut object = Object::default();
+        object.insert("table", self.name());
         for (name, field) in self.clone().fields() {
-            map.insert(name.into(), field.read());
+            object.insert(name, field.read());
         }
-        map
+        object
     }
 
-    fn from_map(given: &Map<String, Value>) -> Result<Self, Invalid> {
+    fn from_object(given: &Object) -> Result<Self, Invalid> {
         let mut table = match given.get("table") {
-            Some(Value::String(name)) => Self::named(name)?,
+            Some(Json::Text(name)) => Self::named(name)?,
             other => {
-                let value = other.map_or_else(|| "nothing".to_owned(), Value::to_string);
+                let value = other.map_or_else(|| "nothing".to_owned(), Json::to_string);
                 return Err(Invalid::new("table", value, "the name of a table, a text"));
             }
         };
-        let (known, of) = (table.to_map(), table.name());
+        let (known, of) = (table.to_object(), table.name());
         for (name, value) in given.iter().filter(|(name, _)| *name != "table") {
             let Some(default) = known.get(name) else {
-                let names: Vec<_> = known.keys().map(String::as_str).collect();
+                let names: Vec<_> = known.iter().map(|(name, _)| name).collect();
                 return Err(Invalid::new("field", quoted(name), names.join(", ")).within(of));
             };
-            let follows = default.is_null() && value.is_null();
+            let follows = *default == Json::Null && *value == Json::Null;
             if !follows && let Some(setting) = SETTINGS.iter().find(|s| s.name == name) {
                 setting.check(value).map_err(|e| e.within(of))?;
             }
@@ -422,18 +416,12 @@ impl Measurement {
 
     /// One line of JSON with every field.
     pub fn to_json(&self) -> String {
-        Value::Object(self.to_map()).to_string()
+        Json::from(self.to_object()).to_string()
     }
 
     /// Reads JSON; what depends on a scenario is for [`Measurement::validate`].
     pub fn from_json(text: &str) -> Result<Self, Invalid> {
-        let value: Value = serde_json::from_str(text).map_err(|e| {
-            Invalid::new("measurement", format!("JSON that breaks off ({e})"), "a JSON object")
-        })?;
-        match value {
-            Value::Object(map) => Self::from_map(&map),
-            other => Err(Invalid::new("measurement", other, "a JSON object")),
-        }
+        Object::read("measurement", text).and_then(|object| Self::from_object(&object))
     }
 
     /// The measurement with every default that follows from the scenario written out.
@@ -469,23 +457,24 @@ impl Measurement {
     pub fn validate(&self, scenario: &Scenario) -> Result<(), Invalid> {
         let resolved = self.resolved(scenario);
         // Also catches what no JSON can hold: NaN and infinities become null.
-        Self::from_map(&resolved.to_map())?;
-        for (name, value) in resolved.to_map() {
-            let number = value.as_f64().unwrap_or(0.0);
-            let refuse = |allowed: String| Err(Invalid::new(&name, &value, allowed).within(self.name()));
+        Self::from_object(&resolved.to_object())?;
+        for (name, value) in resolved.to_object().iter() {
+            let number = value.as_number().unwrap_or(0.0);
+            let refuse =
+                |allowed: String| Err(Invalid::new(name.to_owned(), value, allowed).within(self.name()));
             let most = |limit: usize, what: &str| {
                 if number > limit as f64 { refuse(format!("at most {limit}, {what}")) } else { Ok(()) }
             };
-            match name.as_str() {
+            match name {
                 "every" | "window" if scenario.steps(number) == 0 => {
                     refuse(format!("at least one step, {} s", scenario.time_step))
                 }
                 "vehicle" => most(scenario.vehicles, "the number of vehicles"),
                 "vehicles" => {
-                    let numbers = value.as_array().into_iter().flatten();
-                    match numbers.filter_map(Value::as_u64).find(|&n| n > scenario.vehicles as u64) {
+                    let numbers = value.as_list().into_iter().flatten();
+                    match numbers.filter_map(Json::as_number).find(|&n| n > scenario.vehicles as f64) {
                         Some(n) => Err(Invalid::new(
-                            &name,
+                            name.to_owned(),
                             n,
                             format!("at most {}, the number of vehicles", scenario.vehicles),
                         )
@@ -521,6 +510,25 @@ impl Measurement {
         self.validate(scenario)?;
         let steps = |seconds: f64| scenario.steps(seconds);
         Ok(match self.resolved(scenario) {
+            Self::Modes { every, modes, lane } => {
+                Box::new(Modes::new(steps(every), modes.unwrap_or_default(), lane - 1))
+            }
+            Self::CyclicGrowth { vehicle, periods } => Box::new(CyclicGrowth::new(vehicle - 1, periods)),
+            Self::Equilibrium { every } => Box::new(Equilibria::new(steps(every))),
+            Self::Drivers { every } => Box::new(Drivers::new(steps(every))),
+            Self::Vehicles { every } => Box::new(Vehicles::new(steps(every))),
+            Self::Overview { every } => Box::new(Overview::new(scenario, steps(every))),
+            Self::Outcome {} => Box::new(Outcome::new(scenario)),
+            _ => return self.probe_of_page(scenario),
+        })
+    }
+
+    /// The same for the tables that the page exports; any other is refused. The page's WebAssembly module carries
+    /// these probes only.
+    pub fn probe_of_page(&self, scenario: &Scenario) -> Result<Box<dyn Probe>, Invalid> {
+        self.validate(scenario)?;
+        let steps = |seconds: f64| scenario.steps(seconds);
+        Ok(match self.resolved(scenario) {
             Self::Trajectories { every } => Box::new(Trajectories::new(steps(every))),
             Self::Speeds { every, vehicles } => {
                 Box::new(Speeds::new(steps(every), &vehicles.unwrap_or_default()))
@@ -534,9 +542,6 @@ impl Measurement {
             Self::Flow { every, window, at } => {
                 Box::new(Flow::at(scenario, steps(every), steps(window), at.unwrap_or_default()))
             }
-            Self::Modes { every, modes, lane } => {
-                Box::new(Modes::new(steps(every), modes.unwrap_or_default(), lane - 1))
-            }
             Self::Growth { every, modes, lane, from, smallest, nonlinearity } => Box::new(Growth::new(
                 steps(every),
                 modes.unwrap_or_default(),
@@ -544,14 +549,13 @@ impl Measurement {
                 steps(from.unwrap_or_default()),
                 Linear { smallest, nonlinearity },
             )),
-            Self::CyclicGrowth { vehicle, periods } => Box::new(CyclicGrowth::new(vehicle - 1, periods)),
-            Self::Equilibrium { every } => Box::new(Equilibria::new(steps(every))),
             Self::Events {} => Box::new(Events::default()),
             Self::Lanes { every } => Box::new(Lanes::new(steps(every))),
-            Self::Drivers { every } => Box::new(Drivers::new(steps(every))),
-            Self::Vehicles { every } => Box::new(Vehicles::new(steps(every))),
-            Self::Overview { every } => Box::new(Overview::new(scenario, steps(every))),
-            Self::Outcome {} => Box::new(Outcome::new(scenario)),
+            _ => {
+                let allowed = "trajectories, speeds, speed-map, flow-map, flow, growth, events or lanes; \
+                               the command makes every table";
+                return Err(Invalid::new("table", quoted(self.name()), allowed));
+            }
         })
     }
 
@@ -592,7 +596,7 @@ mod tests {
             assert_eq!(Measurement::from_json(&resolved.to_json()).unwrap(), resolved);
             assert!(measurement.validate(&scenario).is_ok());
             assert_eq!(measurement.to_json().lines().count(), 1);
-            assert_eq!(measurement.to_map()["table"], measurement.name());
+            assert_eq!(measurement.to_object().get("table"), Some(&measurement.name().into()));
         }
         let speeds = Measurement::from_json(r#"{"table":"speeds"}"#).unwrap().resolved(&scenario);
         assert_eq!(speeds.to_json(), r#"{"every":1,"table":"speeds","vehicles":[1,11,21,31,41]}"#);

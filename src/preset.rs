@@ -36,11 +36,11 @@ fn lanes(vehicles: usize, lanes: usize, start: Start, frustration: (f64, f64)) -
 }
 
 fn action(text: &str) -> crate::action::Action {
-    text.parse().expect("the grammar of actions")
+    text.parse().unwrap_or_else(|e: Invalid| panic!("{e}"))
 }
 
 fn exception(text: &str) -> crate::action::Exception {
-    text.parse().expect("the grammar of exceptions")
+    text.parse().unwrap_or_else(|e: Invalid| panic!("{e}"))
 }
 
 /// Every preset, in the order in which people read them.

@@ -70,14 +70,13 @@ impl Generator {
 
     /// `count` different indices below `n`, ascending, every set equally likely (Floyd's algorithm).
     pub fn choose(&mut self, count: usize, n: usize) -> Vec<usize> {
-        let mut chosen = std::collections::BTreeSet::new();
+        let mut chosen = vec![false; n];
         for j in n - count..n {
             let k = self.below(j as u64 + 1) as usize;
-            if !chosen.insert(k) {
-                chosen.insert(j);
-            }
+            let new = if chosen[k] { j } else { k };
+            chosen[new] = true;
         }
-        chosen.into_iter().collect()
+        (0..n).filter(|&k| chosen[k]).collect()
     }
 }
 

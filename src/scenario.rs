@@ -7,10 +7,10 @@
 use crate::action::{Action, Effect, Exception, Who};
 use crate::driver::Driver;
 use crate::error::Invalid;
+use crate::json::{Json, Object};
 use crate::parameters::{PARAMETERS, Parameter, Scope, quoted};
 use crate::random;
-use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde::Serialize;
 use std::fmt;
 use std::str::FromStr;
 
@@ -62,8 +62,7 @@ impl FromStr for Start {
 }
 
 /// Everything that determines a run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(into = "Map<String, Value>", try_from = "Map<String, Value>")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
     /// N, all lanes together.
     pub vehicles: usize,
@@ -190,8 +189,11 @@ impl Scenario {
 
     /// Actions with their places in the list, in the order in which they happen.
     pub(crate) fn actions_in_time(&self) -> Vec<(u64, usize)> {
-        let mut order: Vec<_> = self.actions.iter().enumerate().map(|(k, a)| (self.steps(a.at), k)).collect();
-        order.sort_unstable();
+        let mut order: Vec<(u64, usize)> = Vec::with_capacity(self.actions.len());
+        for (k, action) in self.actions.iter().enumerate() {
+            let step = self.steps(action.at);
+            order.insert(order.partition_point(|&(s, _)| s <= step), (step, k));
+        }
         order
     }
 
@@ -300,100 +302,44 @@ impl Scenario {
 
     /// One line of JSON with every field, as headers carry it.
     pub fn to_json(&self) -> String {
-        Value::Object(self.clone().into()).to_string()
+        self.tree().to_string()
     }
 
     /// Reads JSON and validates.
     pub fn from_json(text: &str) -> Result<Self, Invalid> {
-        let value: Value = serde_json::from_str(text)
-            .map_err(|e| Invalid::new("scenario", format!("JSON that breaks off ({e})"), "a JSON object"))?;
-        match value {
-            Value::Object(map) => Self::try_from(map),
-            other => Err(Invalid::new("scenario", other, "a JSON object")),
-        }
+        Object::read("scenario", text).and_then(|object| Self::from_object(&object))
     }
-}
 
-pub(crate) fn assign(driver: &mut Driver, parameter: &Parameter, value: f64) {
-    if let Scope::Driver { set, .. } = parameter.scope {
-        set(driver, value);
-    }
-}
-
-pub(crate) fn check_min_headway(driver: &Driver) -> Result<(), Invalid> {
-    if driver.min_headway > driver.vehicle_length {
-        Ok(())
-    } else {
-        let allowed = format!("more than the vehicle length, {} m", driver.vehicle_length);
-        Err(Invalid::new("min-headway", format!("{} m", driver.min_headway), allowed))
-    }
-}
-
-fn number(value: f64) -> Value {
-    // Whole numbers without ".0": shorter, and the same number to every reader.
-    if value == value.trunc() && value.abs() < 9.1e15 {
-        Value::from(value as i64)
-    } else {
-        Value::from(value)
-    }
-}
-
-impl From<Scenario> for Map<String, Value> {
-    fn from(scenario: Scenario) -> Self {
-        let mut map = Self::new();
-        map.insert("version".into(), FORMAT.into());
-        let mut driver = Self::new();
+    /// The scenario as an object of JSON, with every field.
+    pub fn tree(&self) -> Json {
+        let (mut object, mut driver) = (Object::default(), Object::default());
         for parameter in &PARAMETERS {
-            let holder = if parameter.is_of_driver() { &mut driver } else { &mut map };
-            holder.insert(parameter.name.into(), number(parameter.get(&scenario)));
+            let holder = if parameter.is_of_driver() { &mut driver } else { &mut object };
+            holder.insert(parameter.name, parameter.get(self));
         }
-        map.insert("start".into(), scenario.start.to_string().into());
-        map.insert("driver".into(), driver.into());
-        let texts = |items: Vec<String>| Value::from(items);
-        map.insert(
-            "exceptions".into(),
-            texts(scenario.exceptions.iter().map(Exception::to_string).collect()),
-        );
-        map.insert("actions".into(), texts(scenario.actions.iter().map(Action::to_string).collect()));
-        map
+        object.insert("version", FORMAT);
+        object.insert("start", self.start.to_string());
+        object.insert("driver", driver);
+        object.insert("exceptions", self.exceptions.iter().map(Exception::to_string).collect::<Json>());
+        object.insert("actions", self.actions.iter().map(Action::to_string).collect::<Json>());
+        object.into()
     }
-}
 
-fn read_number(parameter: &Parameter, value: &Value) -> Result<f64, Invalid> {
-    value.as_f64().ok_or_else(|| Invalid::new(parameter.name, value, parameter.allowed()))
-}
-
-fn read_texts<T: FromStr<Err = Invalid>>(field: &str, value: &Value) -> Result<Vec<T>, Invalid> {
-    let list = value.as_array().ok_or_else(|| Invalid::new(field, value, "a list of texts"))?;
-    let one = |(k, item): (usize, &Value)| {
-        let text =
-            item.as_str().ok_or_else(|| Invalid::new(format!("{field}[{}]", k + 1), item, "a text"))?;
-        text.parse().map_err(|e: Invalid| e.within(format!("{field}[{}]", k + 1)))
-    };
-    list.iter().enumerate().map(one).collect()
-}
-
-fn unknown(name: &str, of_driver: bool, more: &str) -> Invalid {
-    let names: Vec<_> = PARAMETERS.iter().filter(|p| p.is_of_driver() == of_driver).map(|p| p.name).collect();
-    Invalid::new("field", quoted(name), format!("{}{more}", names.join(", ")))
-}
-
-impl TryFrom<Map<String, Value>> for Scenario {
-    type Error = Invalid;
-    fn try_from(map: Map<String, Value>) -> Result<Self, Invalid> {
+    fn from_object(object: &Object) -> Result<Self, Invalid> {
         let mut scenario = Self::default();
-        for (name, value) in &map {
-            match name.as_str() {
-                "version" if value.as_u64() == Some(FORMAT) => {}
+        for (name, value) in object.iter() {
+            match name {
+                "version" if value.as_number() == Some(FORMAT as f64) => {}
                 "version" => return Err(Invalid::new("version", value, FORMAT.to_string())),
                 "start" => {
-                    let text = value.as_str().ok_or_else(|| Invalid::new("start", value, "a text"))?;
+                    let text = value.as_text().ok_or_else(|| Invalid::new("start", value, "a text"))?;
                     scenario.start = text.parse()?;
                 }
                 "driver" => {
-                    let driver =
-                        value.as_object().ok_or_else(|| Invalid::new("driver", value, "a JSON object"))?;
-                    for (name, value) in driver {
+                    let Json::Object(driver) = value else {
+                        return Err(Invalid::new("driver", value, "a JSON object"));
+                    };
+                    for (name, value) in driver.iter() {
                         let parameter = PARAMETERS
                             .iter()
                             .find(|p| p.is_of_driver() && p.name == name)
@@ -417,6 +363,46 @@ impl TryFrom<Map<String, Value>> for Scenario {
     }
 }
 
+pub(crate) fn assign(driver: &mut Driver, parameter: &Parameter, value: f64) {
+    if let Scope::Driver { set, .. } = parameter.scope {
+        set(driver, value);
+    }
+}
+
+pub(crate) fn check_min_headway(driver: &Driver) -> Result<(), Invalid> {
+    if driver.min_headway > driver.vehicle_length {
+        Ok(())
+    } else {
+        let allowed = format!("more than the vehicle length, {} m", driver.vehicle_length);
+        Err(Invalid::new("min-headway", format!("{} m", driver.min_headway), allowed))
+    }
+}
+
+impl Serialize for Scenario {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.tree().serialize(serializer)
+    }
+}
+
+fn read_number(parameter: &Parameter, value: &Json) -> Result<f64, Invalid> {
+    value.as_number().ok_or_else(|| Invalid::new(parameter.name, value, parameter.allowed()))
+}
+
+fn read_texts<T: FromStr<Err = Invalid>>(field: &'static str, value: &Json) -> Result<Vec<T>, Invalid> {
+    let list = value.as_list().ok_or_else(|| Invalid::new(field, value, "a list of texts"))?;
+    let one = |(k, item): (usize, &Json)| {
+        let text =
+            item.as_text().ok_or_else(|| Invalid::new(format!("{field}[{}]", k + 1), item, "a text"))?;
+        text.parse().map_err(|e: Invalid| e.within(format!("{field}[{}]", k + 1)))
+    };
+    list.iter().enumerate().map(one).collect()
+}
+
+fn unknown(name: &str, of_driver: bool, more: &str) -> Invalid {
+    let names: Vec<_> = PARAMETERS.iter().filter(|p| p.is_of_driver() == of_driver).map(|p| p.name).collect();
+    Invalid::new("field", quoted(name), format!("{}{more}", names.join(", ")))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -432,10 +418,7 @@ mod tests {
         let scenario = Scenario::from_json(json).unwrap();
         assert_eq!((scenario.vehicles, scenario.length), (20, 1000.0));
         assert_eq!(Scenario::from_json(&scenario.to_json()).unwrap(), scenario);
-        assert_eq!(
-            serde_json::from_str::<Scenario>(&serde_json::to_string(&scenario).unwrap()).unwrap(),
-            scenario
-        );
+        assert_eq!(serde_json::to_string(&scenario).unwrap(), scenario.to_json());
     }
 
     #[test]

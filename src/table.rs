@@ -232,9 +232,8 @@ fn write_number(out: &mut String, value: f64) {
     if value.is_nan() {
         return;
     }
-    let start = out.len();
     let _ = write!(out, "{value:?}");
-    if out[start..].ends_with(".0") {
+    if out.ends_with(".0") {
         out.truncate(out.len() - 2);
     }
 }

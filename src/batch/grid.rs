@@ -105,7 +105,7 @@ impl FromStr for Vary {
 
 /// A value or a range.
 fn expand(item: &str) -> Result<Vec<f64>, Invalid> {
-    let refuse = |allowed: &str| Invalid::new("values", quoted(item), allowed);
+    let refuse = |allowed: &'static str| Invalid::new("values", quoted(item), allowed);
     let parts: Vec<_> = item.split(':').collect();
     let (from, to, by) = match parts[..] {
         [value] => {

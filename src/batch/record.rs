@@ -101,7 +101,7 @@ impl Header {
 
     /// Why runs under the `found` header cannot be taken for runs of this one.
     fn check(&self, found: &Self) -> Result<(), Invalid> {
-        let refuse = |what: String, allowed: &str| Err(Invalid::new("batch", what, allowed));
+        let refuse = |what: String, allowed: &'static str| Err(Invalid::new("batch", what, allowed));
         if self.ringroad != found.ringroad {
             let what = format!("runs of version {} and not {}", found.ringroad, self.ringroad);
             return refuse(what, "runs of one version: a seed may mean another run in another");

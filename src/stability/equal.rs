@@ -130,11 +130,12 @@ impl EqualRing {
         }
         let reach = count as i32;
         // The principal branch first, also where its root and that of branch −1 are conjugate.
-        let mut roots: Vec<_> = (0..=reach)
-            .flat_map(|k| if k == 0 { vec![0] } else { vec![-k, k] })
-            .map(|k| self.root_on(q, k, delay))
-            .collect();
-        roots[1..].sort_by(|a, b| b.value.re.total_cmp(&a.value.re));
+        let mut roots = vec![self.root_on(q, 0, delay)];
+        for k in (1..=reach).flat_map(|k| [-k, k]) {
+            let root = self.root_on(q, k, delay);
+            let place = roots[1..].partition_point(|r| r.value.re >= root.value.re);
+            roots.insert(1 + place, root);
+        }
         roots.truncate(count);
         roots
     }

@@ -293,12 +293,11 @@ impl Ring {
                     && s.re > 0.0
                     && !modes.iter().any(|m| same(m.root, s))
                 {
-                    modes.push(Mode { mode: q, root: s });
+                    insert(&mut modes, Mode { mode: q, root: s });
                 }
             }
             unstable = unstable_among(&modes);
         }
-        modes.sort_by_key(|m| m.mode);
         Followed { modes, unstable, counted }
     }
 
@@ -514,10 +513,17 @@ fn climb(modes: &mut Vec<Mode>, last: usize, follow: impl Fn(usize) -> Option<Mo
         } else {
             high = middle + 1;
         }
-        modes.extend([a, b]);
+        for mode in [a, b] {
+            if modes.binary_search_by_key(&mode.mode, |m| m.mode).is_err() {
+                insert(modes, mode);
+            }
+        }
     }
-    modes.sort_by_key(|m| m.mode);
-    modes.dedup_by_key(|m| m.mode);
+}
+
+/// Keeps modes in their order, roots of one mode in that in which they came.
+fn insert(modes: &mut Vec<Mode>, mode: Mode) {
+    modes.insert(modes.partition_point(|m| m.mode <= mode.mode), mode);
 }
 
 fn same(a: Complex64, b: Complex64) -> bool {

@@ -231,11 +231,12 @@ fn roots_of_modes(ring: &Ring, modes: impl Iterator<Item = usize>, count: usize)
     }
     let of_mode = |q: usize| {
         let reach = count as i32;
-        let mut roots: Vec<_> = (-reach..=reach)
-            .filter_map(|k| ring.follow(q, k, Time::Continuous).map(|s| (k, s)))
-            .map(|(k, s)| root(q, k, s, ring.residual(s, Time::Continuous) / norm(s).max(1.0)))
-            .collect();
-        roots.sort_by(|a, b| b.real_per_s.total_cmp(&a.real_per_s));
+        let mut roots: Vec<ModeRoot> = Vec::new();
+        for k in -reach..=reach {
+            let Some(s) = ring.follow(q, k, Time::Continuous) else { continue };
+            let residual = ring.residual(s, Time::Continuous) / norm(s).max(1.0);
+            roots.insert(roots.partition_point(|r| r.real_per_s >= s.re), root(q, k, s, residual));
+        }
         roots.truncate(count);
         roots
     };

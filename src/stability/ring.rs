@@ -28,24 +28,17 @@ pub struct Ring {
 impl Ring {
     /// A ring of drivers given by slope (1/s) and delay (s).
     pub fn new(drivers: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        // Runs of alike drivers first, so that a million equal ones need no sorting.
-        let mut runs: Vec<Kind> = Vec::new();
+        let mut kinds: Vec<Kind> = Vec::new();
+        let mut vehicles = 0;
         for (slope, delay) in drivers {
-            match runs.last_mut() {
-                Some(run) if (run.slope, run.delay) == (slope, delay) => run.count += 1,
-                _ => runs.push(Kind { count: 1, slope, delay }),
+            vehicles += 1;
+            let order = |kind: &Kind| kind.slope.total_cmp(&slope).then(kind.delay.total_cmp(&delay));
+            match kinds.binary_search_by(order) {
+                Ok(place) => kinds[place].count += 1,
+                Err(place) => kinds.insert(place, Kind { count: 1, slope, delay }),
             }
         }
-        runs.sort_unstable_by(|a, b| a.slope.total_cmp(&b.slope).then(a.delay.total_cmp(&b.delay)));
-        let vehicles = runs.iter().map(|run| run.count).sum();
-        runs.dedup_by(|run, kind| {
-            let same = (run.slope, run.delay) == (kind.slope, kind.delay);
-            if same {
-                kind.count += run.count;
-            }
-            same
-        });
-        Self { kinds: runs, vehicles }
+        Self { kinds, vehicles }
     }
 
     /// The drivers of a lane of `length` metres in equilibrium, each with the delay (s) in `delays`.

@@ -1,6 +1,7 @@
 //! The door of the WebAssembly module for the paper's figures: what there is, one piece of work at a time, and what
 //! all pieces together give. Workers each do some pieces; any of them can put them together.
 
+use super::refusal;
 use crate::claim::{Claim, Verdict};
 use crate::error::Invalid;
 use crate::figure::{FIGURES, Figure, Outcome, Piece, Size};
@@ -8,10 +9,6 @@ use js_sys::Float64Array;
 use serde_json::{Value, json};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::*;
-
-fn refusal(e: Invalid) -> JsError {
-    JsError::new(&e.to_string())
-}
 
 /// Every figure as JSON: identifier, title, caption, whether it goes beyond the paper, number of pieces.
 #[wasm_bindgen]

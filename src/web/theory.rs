@@ -1,8 +1,10 @@
 //! What the page's stability tab asks for: curves, roots, and the growth of every mode.
 
-use super::{Lab, refusal, verdict};
+use super::laboratory::{Lab, verdict};
+use super::refusal;
+use crate::json::{self, Json};
 use crate::stability::plane::Plane;
-use serde_json::json;
+use crate::table::Table;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::*;
 
@@ -52,34 +54,17 @@ impl Lab {
 
     /// The characteristic roots of the lane that the verdict speaks of, as JSON.
     pub fn roots(&mut self) -> String {
-        serde_json::to_string(&self.live.roots(1, MODES)).unwrap_or_default()
+        json::text(&self.live.roots(1, MODES))
     }
 
     /// Growth of each of its modes since the last change, measured and predicted, as JSON.
     pub fn modal_growth(&self) -> String {
         let starts = self.live.modal_from();
-        let Some(table) = self.live.modal_growth() else {
-            return json!({ "starts": starts, "modes": [] }).to_string();
+        let modes: Json = match self.live.modal_growth() {
+            Some(table) => modes(&table),
+            None => Json::List(Vec::new()),
         };
-        let column = |name: &str| table.floats(name).unwrap_or_default();
-        let (rate, error) = (column("growth_rate_per_s"), column("standard_error_per_s"));
-        let (predicted, bound) = (column("predicted_per_s"), column("nonlinear_bound_per_s"));
-        let (from, to) = (column("from_s"), column("to_s"));
-        let ended_by = table.texts("ended_by").unwrap_or_default();
-        let one = |k: usize| {
-            json!({
-                "mode": k + 1,
-                "rate": rate[k],
-                "standard_error": error[k],
-                "predicted": predicted[k],
-                "nonlinear_bound": bound[k],
-                "from": from[k],
-                "to": to[k],
-                "ended_by": ended_by[k],
-            })
-        };
-        let modes: Vec<_> = (0..table.rows()).map(one).collect();
-        json!({ "starts": starts, "modes": modes }).to_string()
+        Json::object([("starts", starts.into()), ("modes", modes)]).to_string()
     }
 
     /// What theory would say at that reaction time with so many vehicles on all lanes (none: where they are now), as JSON.
@@ -89,4 +74,26 @@ impl Lab {
             .map(|v| verdict(&v).to_string())
             .map_err(refusal)
     }
+}
+
+/// The rows of the table `growth`.
+fn modes(table: &Table) -> Json {
+    let column = |name: &str| table.floats(name).unwrap_or_default();
+    let (rate, error) = (column("growth_rate_per_s"), column("standard_error_per_s"));
+    let (predicted, bound) = (column("predicted_per_s"), column("nonlinear_bound_per_s"));
+    let (from, to) = (column("from_s"), column("to_s"));
+    let ended_by = table.texts("ended_by").unwrap_or_default();
+    let one = |k: usize| {
+        Json::object([
+            ("mode", (k + 1).into()),
+            ("rate", rate[k].into()),
+            ("standard_error", error[k].into()),
+            ("predicted", predicted[k].into()),
+            ("nonlinear_bound", bound[k].into()),
+            ("from", from[k].into()),
+            ("to", to[k].into()),
+            ("ended_by", ended_by[k].as_str().into()),
+        ])
+    };
+    (0..table.rows()).map(one).collect()
 }

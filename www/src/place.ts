@@ -1,8 +1,12 @@
-// What lies beside the page: the compiled core, and the script for the worker. The one-file page takes
+// What lies beside the page: the compiled modules of the core, and the script for the worker. The one-file page takes
 // place.inline.ts instead: the build replaces the name '../place', so only files one folder down may import it.
-import url from '../pkg/ringroad_bg.wasm?url'
+import figuresUrl from '../pkg-figures/figures_bg.wasm?url'
+import laboratoryUrl from '../pkg/ringroad_bg.wasm?url'
 
-export const wasmBytes = async (): Promise<ArrayBuffer> => {
+const urls = { laboratory: laboratoryUrl, figures: figuresUrl }
+
+export const wasmBytes = async (module: keyof typeof urls): Promise<ArrayBuffer> => {
+  const url = urls[module]
   const response = await fetch(url)
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`)
   return response.arrayBuffer()
@@ -10,3 +14,6 @@ export const wasmBytes = async (): Promise<ArrayBuffer> => {
 
 /** A worker that runs the page's own script. */
 export const startWorker = (): Worker => new Worker(import.meta.url, { type: 'module' })
+
+/** The paper's figures are a module of their own, which the laboratory does without. */
+export const figures = () => import('./worker/figures')

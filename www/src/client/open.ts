@@ -6,7 +6,7 @@ import { LocalClient } from './local'
 import { WorkerClient } from './worker'
 
 export async function openCore(): Promise<{ client: Client; start: Start }> {
-  const wasm = await wasmBytes()
+  const wasm = await wasmBytes('laboratory')
   try {
     const client = await WorkerClient.open()
     return { client, start: await client.ask('start', { wasm }) }

@@ -8,7 +8,7 @@ import { WorkerClient } from './worker'
 const MOST = 8
 
 export class Pool {
-  /** The page's own core, for a page without workers. */
+  /** The page's own core, for a page without workers; it has the figures' module by then. */
   readonly #own: Client
   #clients: Promise<Client[]> | null = null
   #stop: (() => void) | null = null
@@ -19,11 +19,11 @@ export class Pool {
 
   async #open(): Promise<Client[]> {
     if (this.#own.place === 'page') return [this.#own]
-    const wasm = await wasmBytes()
+    const wasm = await wasmBytes('figures')
     const count = Math.max(1, Math.min(MOST, navigator.hardwareConcurrency || 1))
     const one = async () => {
       const client = await WorkerClient.open()
-      await client.ask('start', { wasm })
+      await client.ask('figures', { wasm })
       return client
     }
     const opened = await Promise.allSettled(Array.from({ length: count }, one))

@@ -173,8 +173,8 @@ export interface Frame {
   readonly distances: Float64Array
   /** Length and minimum headway of every vehicle, pair after pair, m. */
   readonly sizes: Float64Array
-  readonly lanes: Uint8Array
-  readonly laneChanges: Uint32Array
+  readonly lanes: Float64Array
+  readonly laneChanges: Float64Array
   /** Red, green, blue of every vehicle. */
   readonly colours: Uint8Array
   /** Rows since the frame before: time, mean speed, flow, ΔN, then the watched vehicles' speeds. */
@@ -328,7 +328,8 @@ export interface Requests {
   /** Replays the run so far and measures it. */
   csv: { ask: { measurement: string }; answer: string }
   cancel: { ask: Record<string, never>; answer: null }
-  figures: { ask: Record<string, never>; answer: readonly FigureInfo[] }
+  /** Starts the figures' module; the next two need it. */
+  figures: { ask: { wasm: ArrayBuffer }; answer: readonly FigureInfo[] }
   /** One piece of a figure's work, from 0. */
   piece: { ask: { figure: string; piece: number }; answer: Float64Array }
   /** All pieces put together. */

@@ -3,6 +3,7 @@ import { Cancelled } from '../client/client'
 import { Pool } from '../client/pool'
 import { el } from '../dom'
 import { exactly } from '../format'
+import { wasmBytes } from '../place'
 import { png, save } from '../save'
 import type { Session } from '../session'
 import type { Claim, Field, FigureInfo, FigureOutcome, Span } from '../shared/protocol'
@@ -21,7 +22,7 @@ interface Entry {
 }
 
 export async function figuresView(session: Session): Promise<HTMLElement[]> {
-  const infos = await session.client.ask('figures', {})
+  const infos = await session.client.ask('figures', { wasm: await wasmBytes('figures') })
   const pool = new Pool(session.client)
   const queue: Entry[] = []
   let current: Entry | null = null

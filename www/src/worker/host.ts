@@ -1,7 +1,8 @@
 // The core's side of the door: answers questions, one after the other, and cuts long ones into slices so that
 // whoever shares its thread stays alive. It computes nothing; it asks the compiled core.
-import { Export, FigureOutcome, Lab, figure_piece, figures, initSync, parameters, presets, version } from '../../pkg/ringroad.js'
+import { Export, Lab, initSync, parameters, presets, version } from '../../pkg/ringroad.js'
 import { CANCELLED } from '../client/client'
+import { figures } from '../place'
 import type { Answer, Ask, Frame, Name, Opened, Snapshot } from '../shared/protocol'
 
 /** Milliseconds of a slice of a long computation. */
@@ -182,17 +183,9 @@ export class Host {
       this.#cancelled = true
       return null
     },
-    figures: () => JSON.parse(figures()),
-    piece: ({ figure, piece }) => figure_piece(figure, piece),
-    assemble: ({ figure, pieces }) => {
-      const outcome = new FigureOutcome(figure, pieces)
-      try {
-        const table = (_: unknown, k: number) => ({ name: outcome.table_name(k), csv: outcome.csv(k) })
-        return { svg: outcome.svg(), fields: JSON.parse(outcome.fields()), claims: JSON.parse(outcome.claims()), tables: Array.from({ length: outcome.tables() }, table) }
-      } finally {
-        outcome.free()
-      }
-    },
+    figures: async ({ wasm }) => (await figures()).start(wasm),
+    piece: async ({ figure, piece }) => (await figures()).piece(figure, piece),
+    assemble: async ({ figure, pieces }) => (await figures()).assemble(figure, pieces),
   }
 
   #frame(taken: number): Frame {
