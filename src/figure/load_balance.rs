@@ -172,8 +172,9 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
 
 fn panel(title: &str, label: &str, groups: [&Group; 2], imbalance: bool, rule: f64) -> Panel {
     let name = if imbalance { "chance" } else { "equilibrium" };
-    let mut layers =
-        vec![Layer::Curve { name: name.into(), style: 5, x: vec![0.0, 100.0], y: vec![rule, rule] }];
+    let x: Vec<f64> = (0..=100).map(f64::from).collect();
+    let y = vec![rule; x.len()];
+    let mut layers = vec![Layer::Curve { name: name.into(), style: 5, x, y }];
     for (style, group) in groups.into_iter().enumerate() {
         let spread = Spread::of(if imbalance { &group.imbalance } else { &group.flow });
         let x = group.time.to_vec();
