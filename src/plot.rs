@@ -441,7 +441,9 @@ impl Panel {
             match layer {
                 Layer::Curve { name, style, x: xs, y: ys } => {
                     let band = self.layers.iter().find_map(|l| match l {
-                        Layer::Band { style: of, x, low, high, .. } if of == style && x == xs => Some((low, high)),
+                        Layer::Band { style: of, x, low, high, .. } if of == style && x == xs => {
+                            Some((low, high))
+                        }
                         _ => None,
                     });
                     let interval = |k: usize| band.map(|(low, high)| (low[k], high[k]));
@@ -615,7 +617,9 @@ fn mark<'a>(
     let each = |of: &dyn Fn(usize) -> f64| seen.iter().map(|&k| of(k) as f32).collect::<Vec<_>>();
     let tenths = |v: f64| (v * 10.0).round() / 10.0;
     let known = seen.iter().any(|&k| interval(k).is_some());
-    let end = |of: fn((f64, f64)) -> f64| if known { each(&|k| interval(k).map_or(f64::NAN, of)) } else { Vec::new() };
+    let end = |of: fn((f64, f64)) -> f64| {
+        if known { each(&|k| interval(k).map_or(f64::NAN, of)) } else { Vec::new() }
+    };
     Mark::Curve {
         name,
         x: each(&|k| xs[k]),
@@ -983,11 +987,16 @@ mod tests {
         let plot = plot();
         let svg = plot.to_svg();
         let fields = plot.fields();
-        let Mark::Curve { name, x, y, low, high, right, down } = &fields[0].marks[0] else { panic!("a curve") };
+        let Mark::Curve { name, x, y, low, high, right, down } = &fields[0].marks[0] else {
+            panic!("a curve")
+        };
         // A value is missing at 1; the band, which ends at 1, is not that of the curve.
         assert_eq!((*name, x.as_slice(), y.as_slice()), ("a", &[0.0, 2.0, 3.0][..], &[0.0, 1.0, 2.0][..]));
         assert!(low.is_empty() && high.is_empty());
-        assert!(svg.contains(&format!("M{} {}M{} {}L", right[0], down[0], right[1], down[1])), "{right:?} {down:?}");
+        assert!(
+            svg.contains(&format!("M{} {}M{} {}L", right[0], down[0], right[1], down[1])),
+            "{right:?} {down:?}"
+        );
         let Mark::Curve { name, low, high, .. } = &fields[0].marks[1] else { panic!("points") };
         assert_eq!((*name, low.as_slice(), high.as_slice()), ("b", &[0.8][..], &[1.2][..]));
         let Mark::Map { width, x, y, values, across, up, .. } = &fields[1].marks[0] else { panic!("a map") };

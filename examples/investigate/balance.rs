@@ -107,7 +107,8 @@ pub fn measure(reading: Reading, seeds: RangeInclusive<u64>) -> Outcome {
         flow: of_balance(2),
         aggressive: of_changes(0),
         control: of_changes(1),
-        crashed: balance.iter().filter(|v| v.is_none()).count() + changes.iter().filter(|v| v.is_none()).count(),
+        crashed: balance.iter().filter(|v| v.is_none()).count()
+            + changes.iter().filter(|v| v.is_none()).count(),
     }
 }
 
@@ -138,12 +139,12 @@ pub fn summary(results: &[(Reading, Outcome)]) {
     println!("| all three | {} |\n", count(&|r| r.met() == 3));
 }
 
-pub const READING: &str = "gap | rise | attempt | passes | order | φ returns to 0 after";
+pub const READING: &str = "gap | rise | attempt | passes | order | φ is 0 after | dt";
 
 /// Those that meet at least `least` statements, the first `most` of them.
 pub fn those_that_meet(results: &[(Reading, Outcome)], least: u8, most: usize, with_r_and_p: bool) {
     let first = if with_r_and_p { "r | p | " } else { "" };
-    let rules = "---|".repeat(if with_r_and_p { 15 } else { 13 });
+    let rules = "---|".repeat(if with_r_and_p { 16 } else { 14 });
     println!("| {first}{READING} | {HEADER}\n|{rules}");
     for (reading, outcome) in results.iter().filter(|r| r.1.met() >= least).take(most) {
         let first =
@@ -215,7 +216,7 @@ pub fn singles(literal: Reading) -> Vec<(String, Reading)> {
     for order in [Order::Backwards, Order::Together] {
         add(format!("order: {order:?}"), Reading { order, ..literal });
     }
-    add("φ returns to 0 after every attempt".into(), Reading { reset_always: true, ..literal });
+    add("φ: 0 after every attempt".into(), Reading { reset_always: true, ..literal });
     for dt in [0.01, 0.1, 0.25, 0.5] {
         add(format!("dt = {dt} s"), Reading { dt, ..literal });
     }

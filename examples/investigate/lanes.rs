@@ -108,8 +108,8 @@ impl fmt::Display for Reading {
         let reset = if self.reset_always { "every attempt" } else { "a change" };
         write!(
             f,
-            "{:?} | {:?} | {:?} | {:?} | {:?} | {reset}",
-            self.gap, self.rise, self.attempt, self.passes, self.order
+            "{:?} | {:?} | {:?} | {:?} | {:?} | {reset} | {} s",
+            self.gap, self.rise, self.attempt, self.passes, self.order, self.dt
         )
     }
 }

@@ -1,7 +1,7 @@
 //! (c) Load balance and lane changes over r and p: a map for each reading, and a search over all combinations.
 
 use crate::balance::{
-    AGGRESSIVE, AT_30, CONTROL, FLOW, HEADER, LATE, Outcome, all, combinations, measure, singles, summary,
+    AGGRESSIVE, AT_30, CONTROL, FLOW, HEADER, LATE, Outcome, all, combinations, singles, summary,
     those_that_meet,
 };
 use crate::lanes::Reading;
@@ -29,10 +29,12 @@ fn ends((middle, parts, low, high): (f64, f64, i32, i32)) -> (f64, f64) {
 /// What is mapped: name of the file, title, the paper's number, how far the colours reach on both sides of it.
 type Quantity = (&'static str, &'static str, Expected, f64, fn(&Outcome) -> Estimate);
 const QUANTITIES: [Quantity; 5] = [
-    ("imbalance-30", "ΔN at 30 s", AT_30, 5.0, |o| o.at_30),
-    ("imbalance-late", "ΔN, mean from 30 to 100 s", LATE, 5.0, |o| o.late),
+    ("imbalance-30", "ΔN at 30 s", AT_30, 4.0, |o| o.at_30),
+    ("imbalance-late", "ΔN, mean from 30 to 100 s", LATE, 4.0, |o| o.late),
     ("flow", "Flow of both lanes from 30 to 100 s (veh/s)", FLOW, 0.12, |o| o.flow),
-    ("changes-aggressive", "Lane changes of the aggressive driver in 500 s, at p/2", AGGRESSIVE, 12.0, |o| o.aggressive),
+    ("changes-aggressive", "Lane changes of the aggressive driver in 500 s, at p/2", AGGRESSIVE, 12.0, |o| {
+        o.aggressive
+    }),
     ("changes-control", "Lane changes of a control driver in 500 s, at p/2", CONTROL, 6.0, |o| o.control),
 ];
 
@@ -72,7 +74,9 @@ pub fn main(folder: &Path) {
         );
     }
     println!("\nOf each reading the pair of r and p that is nearest to all five numbers:\n");
-    println!("| changed | r | p | farthest (tolerances) | {HEADER}\n|---|---|---|---|---|---|---|---|---|---|---|");
+    println!(
+        "| changed | r | p | farthest (tolerances) | {HEADER}\n|---|---|---|---|---|---|---|---|---|---|---|"
+    );
     for (k, (name, _)) in readings.iter().enumerate() {
         let nearest = of_reading(k).iter().min_by(|a, b| farthest(&a.1).total_cmp(&farthest(&b.1)));
         let (reading, outcome) = nearest.expect("a pair");
@@ -84,6 +88,7 @@ pub fn main(folder: &Path) {
             outcome.row()
         );
     }
+    again("Those that meet all three", &results);
     for quantity in QUANTITIES {
         let maps = readings.iter().enumerate().map(|(k, (name, _))| {
             (name.as_str(), of_reading(k).iter().map(|r| quantity.4(&r.1).value).collect())
@@ -144,7 +149,9 @@ fn csv(readings: &[(String, Reading)], results: &[(Reading, Outcome)]) -> String
         SEEDS.end()
     );
     out.push_str("changed,r_per_s,p");
-    for name in ["imbalance_30_s", "imbalance_late", "flow_veh_per_s", "changes_aggressive", "changes_control"] {
+    for name in
+        ["imbalance_30_s", "imbalance_late", "flow_veh_per_s", "changes_aggressive", "changes_control"]
+    {
         let _ = write!(out, ",{name},half_{name}");
     }
     out.push_str(",collisions\n");
@@ -160,6 +167,15 @@ fn csv(readings: &[(String, Reading)], results: &[(Reading, Outcome)]) -> String
     out
 }
 
+/// Shows those that meet all three statements, and what they give in many other runs.
+fn again(title: &str, results: &[(Reading, Outcome)]) {
+    println!("\n{title}:\n");
+    those_that_meet(results, 3, usize::MAX, true);
+    println!("\nThe same with 200 other runs, seeds 1001 to 1200:\n");
+    let again: Vec<Reading> = results.iter().filter(|r| r.1.met() == 3).map(|r| r.0).collect();
+    those_that_meet(&all(&again, &(1001..=1200)), 0, usize::MAX, true);
+}
+
 /// Every combination at some pairs of r and p, with few runs; then those that met all three, with many other runs.
 pub fn search() {
     let (rates, shares) = ([0.018, 0.032, 0.056, 0.1], [0.06, 0.2, 0.6]);
@@ -173,15 +189,10 @@ pub fn search() {
     println!("r of {rates:?} /s, p of {shares:?}; half of it for the aggressive driver.\n");
     let results = all(&readings, &(1..=10));
     summary(&results);
-    println!("Those that meet all three:\n");
-    those_that_meet(&results, 3, usize::MAX, true);
-    println!("\nThe same again with 200 other runs, seeds 1001 to 1200:\n");
-    let again: Vec<Reading> = results.iter().filter(|r| r.1.met() == 3).map(|r| r.0).collect();
-    let again: Vec<_> = again.iter().map(|&r| (r, measure(r, 1001..=1200))).collect();
-    those_that_meet(&again, 0, usize::MAX, true);
+    again("Those that meet all three", &results);
     let mut order: Vec<_> = results.iter().collect();
     order.sort_by(|a, b| farthest(&a.1).total_cmp(&farthest(&b.1)));
     println!("\nThe ten that are nearest to all five numbers, with the same other runs:\n");
-    let nearest: Vec<_> = order[..10].iter().map(|r| (r.0, measure(r.0, 1001..=1200))).collect();
-    those_that_meet(&nearest, 0, usize::MAX, true);
+    let nearest: Vec<Reading> = order[..10].iter().map(|r| r.0).collect();
+    those_that_meet(&all(&nearest, &(1001..=1200)), 0, usize::MAX, true);
 }

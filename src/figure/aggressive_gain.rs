@@ -17,7 +17,13 @@ pub(super) const FIGURE: Figure = Figure {
               vehicles. 20 runs each, seeds 1 to 20. Gain: mean distance of the aggressive over that of all \
               others; mean and 95 % confidence interval.",
     beyond: true,
-    pieces: |size| points(size).iter().map(Point::name).collect(),
+    pieces: |size| {
+        let each = |point: &Point| {
+            let name = point.name();
+            (1..=runs(size)).map(move |seed| format!("{name}, run {seed}")).collect::<Vec<_>>()
+        };
+        points(size).iter().flat_map(each).collect()
+    },
     run,
     assemble,
 };
@@ -67,31 +73,31 @@ fn points(size: Size) -> Vec<Point> {
     lambdas.chain(shares).chain(counts.into_iter().map(Point::Vehicles)).collect()
 }
 
-fn runs(size: Size) -> u64 {
+fn runs(size: Size) -> usize {
     size.choose(20, 3)
 }
 
-/// For each run: gain in per cent, lane changes of an aggressive and of another driver, mean speed of all.
+/// Gain in per cent, lane changes of an aggressive and of another driver, mean speed of all.
 fn run(size: Size, piece: usize) -> Piece {
-    let point = points(size)[piece];
-    let mut columns = vec![Vec::new(); 4];
-    for seed in 1..=runs(size) {
-        let scenario = point.scenario(size, seed);
-        let (_, simulation) = measured(&scenario, &[]);
-        let split = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
-            let each = (0..simulation.vehicles())
-                .filter(|&j| (simulation.driver(j).sensitivity > 1.0) == aggressive);
-            mean(&each.map(f).collect::<Vec<_>>())
-        };
-        let distance = |j: usize| simulation.distance(j);
-        let changes = |j: usize| f64::from(simulation.lane_changes(j));
-        columns[0].push(100.0 * (split(&distance, true) / split(&distance, false) - 1.0));
-        columns[1].push(split(&changes, true));
-        columns[2].push(split(&changes, false));
-        let all: Vec<f64> = (0..simulation.vehicles()).map(distance).collect();
-        columns[3].push(mean(&all) / simulation.time());
+    let (point, seed) = (piece / runs(size), piece % runs(size) + 1);
+    let scenario = points(size)[point].scenario(size, seed as u64);
+    let (_, simulation) = measured(&scenario, &[]);
+    let split = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
+        let each =
+            (0..simulation.vehicles()).filter(|&j| (simulation.driver(j).sensitivity > 1.0) == aggressive);
+        mean(&each.map(f).collect::<Vec<_>>())
+    };
+    let distance = |j: usize| simulation.distance(j);
+    let changes = |j: usize| f64::from(simulation.lane_changes(j));
+    let all: Vec<f64> = (0..simulation.vehicles()).map(distance).collect();
+    Piece {
+        columns: vec![vec![
+            100.0 * (split(&distance, true) / split(&distance, false) - 1.0),
+            split(&changes, true),
+            split(&changes, false),
+            mean(&all) / simulation.time(),
+        ]],
     }
-    Piece { columns }
 }
 
 /// A curve: points of one kind.
@@ -104,11 +110,12 @@ struct Series {
 impl Series {
     fn of(size: Size, pieces: &[Piece], x: impl Fn(Point) -> Option<f64>) -> Self {
         let mut series = Self { x: Vec::new(), values: Default::default() };
-        for (point, piece) in points(size).into_iter().zip(pieces) {
+        for (point, of_point) in points(size).into_iter().zip(pieces.chunks(runs(size))) {
             if let Some(at) = x(point) {
                 series.x.push(at);
-                for (values, runs) in series.values.iter_mut().zip(&piece.columns) {
-                    values.push(Estimate::mean(runs));
+                for (k, values) in series.values.iter_mut().enumerate() {
+                    let each: Vec<f64> = of_point.iter().map(|p| p.columns[0][k]).collect();
+                    values.push(Estimate::mean(&each));
                 }
             }
         }

@@ -73,7 +73,7 @@ fn growth(reaction_time: f64) -> Vec<f64> {
 
 /// The middle, in steps, between the largest delay at which the longest wave fades and the next, at which it grows.
 fn critical_steps(vehicles: usize, until: f64) -> f64 {
-    let grows = |steps: u32| {
+    let grows = |steps: u32, until: f64| {
         let mut scenario = nudged(f64::from(steps) * STEP, 1e-3, until);
         scenario.vehicles = vehicles;
         let from = Some(500.0);
@@ -93,7 +93,9 @@ fn critical_steps(vehicles: usize, until: f64) -> f64 {
     let (mut fades, mut growing) = (20, 160);
     while growing - fades > 1 {
         let middle = u32::midpoint(fades, growing);
-        if grows(middle) { growing = middle } else { fades = middle }
+        // Far from the threshold a wave shows soon what it does.
+        let enough = if growing - fades > 16 { 1000.0 } else { until };
+        if grows(middle, enough) { growing = middle } else { fades = middle }
     }
     f64::from(fades) + 0.5
 }

@@ -146,7 +146,10 @@ test('figures: a map tells the value of a cell', async ({ open }) => {
   const figure = '#figure-waves'
   await page.waitForSelector(`${figure} .run`)
   await runs(page, 'waves')
-  const { left, top, width, height } = await page.$eval(`${figure} svg image`, image => image.getBoundingClientRect().toJSON())
+  const { left, top, width, height } = await page.$eval(`${figure} svg image`, image => {
+    image.scrollIntoView({ block: 'center' })
+    return image.getBoundingClientRect().toJSON()
+  })
   const panels = await page.$$eval(`${figure} svg image`, all => all.length)
   equal(panels, 6, 'maps')
   // The first map is that of Δ = 0 s: its flow hardly changes; any cell is a row of the table.
