@@ -173,24 +173,36 @@ test('figures: a map tells the value of a cell', async ({ open }) => {
   equal(await value('ArrowUp'), before, 'and up again')
 })
 
-test('figures: cancel takes effect at once, and the figure can be run again', async ({ open }) => {
-  const page = await open('figures.html')
-  const figure = '#figure-frustration-flow'
-  await page.waitForSelector(`${figure} .run`)
-  await page.click(`${figure} .run`)
-  await page.waitForFunction(f => document.querySelector(`${f} progress`).value > 0, figure)
-  const taken = await page.evaluate(async f => {
+/** Presses the cancel button of a figure that runs; milliseconds until it is idle. */
+const cancelled = (page, figure) =>
+  page.evaluate(async f => {
     const before = performance.now()
     document.querySelector(`${f} .stop`).click()
     while (document.querySelector(f).dataset.state !== 'idle') await new Promise(r => setTimeout(r, 1))
     return performance.now() - before
   }, figure)
-  holds(taken < 100, `cancel took ${taken} ms`)
-  equal(await page.textContent(`${figure} .status`), 'Cancelled.', 'what is said')
-  equal(await page.locator(`${figure} .plot`).count(), 0, 'pictures')
-  await runs(page, 'fundamental-diagram')
-  equal(page.problems.join(), '', 'errors on the page')
-})
+
+const CANCEL = {
+  'with workers': 'figures.html',
+  'without workers': 'policy-no-worker/ringroad.html#view=figures',
+}
+for (const [how, address] of Object.entries(CANCEL)) {
+  test(`figures: cancel takes effect at once, and the figure can be run again, ${how}`, async ({ open }) => {
+    const page = await open(address)
+    for (const id of ['frustration-flow', 'stability']) {
+      const figure = `#figure-${id}`
+      await page.waitForSelector(`${figure} .run`)
+      await page.click(`${figure} .run`)
+      await page.waitForFunction(f => document.querySelector(`${f} progress`).value > 0, figure)
+      const taken = await cancelled(page, figure)
+      holds(taken < 100, `cancel took ${taken} ms`)
+      equal(await page.textContent(`${figure} .status`), 'Cancelled.', 'what is said')
+      equal(await page.locator(`${figure} .plot`).count(), 0, 'pictures')
+    }
+    await runs(page, 'fundamental-diagram')
+    equal(page.problems.join(), '', 'errors on the page')
+  })
+}
 
 test('figures: those that wait are cancelled with the one that runs', async ({ open }) => {
   const page = await open('figures.html')
