@@ -32,10 +32,10 @@ const QUANTITIES: [Quantity; 5] = [
     ("imbalance-30", "ΔN at 30 s", AT_30, 4.0, |o| o.at_30),
     ("imbalance-late", "ΔN, mean from 30 to 100 s", LATE, 4.0, |o| o.late),
     ("flow", "Flow of both lanes from 30 to 100 s (veh/s)", FLOW, 0.12, |o| o.flow),
-    ("changes-aggressive", "Lane changes of the aggressive driver in 500 s, at p/2", AGGRESSIVE, 12.0, |o| {
+    ("changes-aggressive", "Lane changes of the aggressive driver in 500 s, p/2", AGGRESSIVE, 12.0, |o| {
         o.aggressive
     }),
-    ("changes-control", "Lane changes of a control driver in 500 s, at p/2", CONTROL, 6.0, |o| o.control),
+    ("changes-control", "Lane changes of a control driver in 500 s, p/2", CONTROL, 3.0, |o| o.control),
 ];
 
 pub fn main(folder: &Path) {
@@ -127,9 +127,9 @@ fn picture((id, title, expected, reach, _): &Quantity, maps: &[(&str, Vec<f64>)]
     };
     Plot {
         id: (*id).to_owned(),
-        title: format!("{title}: the paper’s {paper} is white, less is blue, more is amber"),
+        title: format!("{title}; white: the paper’s {paper}"),
         description: format!(
-            "A map over r and p for each of {} readings; mean of {} runs in each cell.",
+            "A map over r and p for each of {} readings, mean of {} runs in each cell: less than the paper is blue, more is amber.",
             maps.len(),
             SEEDS.end()
         ),

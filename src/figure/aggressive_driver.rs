@@ -19,7 +19,7 @@ pub(super) const FIGURE: Figure = Figure {
               band.",
     beyond: false,
     pieces,
-    run,
+    start: |size, piece| Box::new(move || run(size, piece)),
     assemble,
 };
 

@@ -24,7 +24,7 @@ pub(super) const FIGURE: Figure = Figure {
         };
         points(size).iter().flat_map(each).collect()
     },
-    run,
+    start: |size, piece| Box::new(move || run(size, piece)),
     assemble,
 };
 

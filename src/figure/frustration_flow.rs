@@ -20,7 +20,7 @@ pub(super) const FIGURE: Figure = Figure {
         let pairs = rates.iter().flat_map(|r| rates.iter().map(move |p| format!("r = {r}, p = {p}")));
         pairs.collect()
     },
-    run,
+    start: |size, piece| Box::new(move || run(size, piece)),
     assemble,
 };
 

@@ -29,7 +29,7 @@ pub(super) const FIGURE: Figure = Figure {
               slower. The run at 0.75 s ends in a collision.",
     beyond: false,
     pieces,
-    run,
+    start: |size, piece| Box::new(move || run(size, piece)),
     assemble,
 };
 

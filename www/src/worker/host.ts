@@ -1,11 +1,13 @@
 // The core's side of the door: answers questions, one after the other, and cuts long ones into slices so that
 // whoever shares its thread stays alive. It computes nothing; it asks the compiled core.
-import { Export, FigureOutcome, Lab, figure_piece, figures, initSync, parameters, presets, version } from '../../pkg/ringroad.js'
+import { Export, FigureOutcome, FigureWork, Lab, figures, initSync, parameters, presets, version } from '../../pkg/ringroad.js'
 import { CANCELLED } from '../client/client'
 import type { Answer, Ask, Frame, Name, Opened, Snapshot } from '../shared/protocol'
 
 /** Milliseconds of a slice of a long computation. */
 const SLICE = 12
+/** Updates of a vehicle that take a millisecond or a few. */
+const UPDATES = 100_000
 
 type Progress = (part: number) => void
 type Answers = { [K in Name]: (ask: Ask<K>, progress: Progress) => Answer<K> | Promise<Answer<K>> }
@@ -15,6 +17,12 @@ export class Host {
   #cancelled = false
   /** Steps that take about a millisecond: measured, since it depends on vehicles and machine. */
   #chunk = 16
+  /** Whether it stands on the page's own thread, where nothing but a pause lets anyone in. */
+  readonly #shared: boolean
+
+  constructor(shared: boolean) {
+    this.#shared = shared
+  }
 
   async answer<K extends Name>(name: K, ask: Ask<K>, progress: Progress): Promise<Answer<K>> {
     const answer = this.#answers[name] as (ask: Ask<K>, progress: Progress) => Answer<K>
@@ -155,7 +163,22 @@ export class Host {
       return null
     },
     figures: () => JSON.parse(figures()),
-    piece: ({ figure, piece }) => figure_piece(figure, piece),
+    piece: async ({ figure, piece }) => {
+      const work = new FigureWork(figure, piece)
+      this.#cancelled = false
+      try {
+        for (let end = performance.now() + SLICE; ; ) {
+          const given = work.advance(UPDATES)
+          if (given) return given as Float64Array
+          if (this.#shared && performance.now() >= end) {
+            await this.#breathe()
+            end = performance.now() + SLICE
+          }
+        }
+      } finally {
+        work.free()
+      }
+    },
     assemble: ({ figure, pieces }) => {
       const outcome = new FigureOutcome(figure, pieces)
       try {
