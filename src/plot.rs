@@ -588,7 +588,9 @@ impl Panel {
                 Layer::Points { name, style, .. } => (name, *style, marker(*style, at + 11.0, y - 4.0)),
                 Layer::Rule { .. } | Layer::Map { .. } => continue,
             };
-            if name.is_empty() {
+            // The last ones give way to the panel beside; they can be read off all the same.
+            let fits = at + 27.0 + text_width(name) <= frame.left + frame.width + frame.right;
+            if name.is_empty() || !fits {
                 continue;
             }
             let _ = writeln!(
