@@ -335,9 +335,9 @@ impl Lanes {
         });
         self.before = self.wrapped;
         self.over_origin = false;
-        for j in 0..N {
-            self.x[j] += way[j];
-            self.wrapped[j] += way[j];
+        for (j, way) in way.iter().enumerate() {
+            self.x[j] += way;
+            self.wrapped[j] += way;
             if self.wrapped[j] >= L {
                 self.wrapped[j] -= L;
                 self.over_origin = true;
