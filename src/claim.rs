@@ -42,14 +42,6 @@ impl Estimate {
         let n = samples.len() as f64;
         Self { value: mean(samples), uncertainty: student_95(n - 1.0) * deviation(samples) / n.sqrt() }
     }
-
-    /// Share of `n` independent trials, with Wilson's 95 % interval made symmetric about its centre.
-    pub fn share(successes: usize, n: usize) -> Self {
-        let (p, n, z) = (successes as f64 / n as f64, n as f64, 1.959_964);
-        let shrink = 1.0 + z * z / n;
-        let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt() / shrink;
-        Self { value: (p + z * z / (2.0 * n)) / shrink, uncertainty: half }
-    }
 }
 
 /// Mean; NaN of nothing.
@@ -220,7 +212,10 @@ impl Claim {
         let met = self.readings.iter().filter(|r| self.expected.is_met_by(r.ours)).count();
         let _ = write!(text, " Readings tried: {}, of which {met} meet the claim.", self.readings.len());
         if others.len() <= 6 {
-            let each = |r: &Reading| format!("{}: {}", r.choice, short(r.ours.value));
+            let each = |r: &Reading| match r.ours.uncertainty {
+                0.0 => format!("{}: {}", r.choice, short(r.ours.value)),
+                half => format!("{}: {} ± {}", r.choice, short(r.ours.value), short(half)),
+            };
             let _ = write!(text, " Others: {}.", others.iter().map(each).collect::<Vec<_>>().join("; "));
         } else {
             let values = || self.readings.iter().map(|r| r.ours.value);
@@ -425,10 +420,6 @@ mod tests {
             (four.value - 2.5).abs() < 1e-15 && (four.uncertainty - 3.182 * 1.290_994 / 2.0).abs() < 1e-3
         );
         assert!(Estimate::mean(&[1.0]).uncertainty.is_nan());
-        // Wilson's interval for 8 of 10: 0.490 … 0.943.
-        let share = Estimate::share(8, 10);
-        assert!((share.value - share.uncertainty - 0.490).abs() < 1e-3, "{share:?}");
-        assert!((share.value + share.uncertainty - 0.943).abs() < 1e-3, "{share:?}");
     }
 
     #[test]

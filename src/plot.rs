@@ -323,36 +323,27 @@ impl Plot {
         }
     }
 
-    /// Where the axes of every panel lie in the picture and what they span, for who points at a place and asks what
-    /// it means.
+    /// What can be read off every panel and where it lies in the picture, for who points at a place or walks along
+    /// a curve.
     pub fn fields(&self) -> Vec<Field<'_>> {
         let one = |(k, panel): (usize, &'_ Panel)| {
-            let (frame, [x, y]) = (self.frame(k), panel.spans());
+            let frame = self.frame(k);
             Field {
                 title: &self.panels[k].title,
                 left: frame.left,
                 top: frame.top,
                 width: frame.width,
                 height: frame.height,
-                x: Span {
-                    label: &self.panels[k].x.label,
-                    low: x.0,
-                    high: x.1,
-                    signed_log: panel.x.signed_log,
-                },
-                y: Span {
-                    label: &self.panels[k].y.label,
-                    low: y.0,
-                    high: y.1,
-                    signed_log: panel.y.signed_log,
-                },
+                x: &self.panels[k].x.label,
+                y: &self.panels[k].y.label,
+                marks: self.panels[k].marks(panel.mappings(&frame)),
             }
         };
         self.panels.iter().enumerate().map(one).collect()
     }
 }
 
-/// The rectangle between the axes of a panel, in units of the picture.
+/// The rectangle between the axes of a panel, in units of the picture, and what can be read there.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Field<'a> {
     /// The panel's title.
@@ -365,23 +356,52 @@ pub struct Field<'a> {
     pub width: f64,
     /// Height.
     pub height: f64,
-    /// From left to right.
-    pub x: Span<'a>,
-    /// From bottom to top.
-    pub y: Span<'a>,
+    /// What the horizontal axis measures, with the unit.
+    pub x: &'a str,
+    /// What the vertical axis measures, with the unit.
+    pub y: &'a str,
+    /// Its curves, points and maps, as far as they are to be seen.
+    pub marks: Vec<Mark<'a>>,
 }
 
-/// What an axis spans.
+/// Values that can be read off a picture, with seven digits, and where they are drawn, in units of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Span<'a> {
-    /// What it measures, with the unit.
-    pub label: &'a str,
-    /// Value at its beginning.
-    pub low: f64,
-    /// Value at its end.
-    pub high: f64,
-    /// Whether it is the signed logarithmic scale of [`crate::colour`].
-    pub signed_log: bool,
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Mark<'a> {
+    /// A curve, or points.
+    Curve {
+        /// Its name; empty where it is alone.
+        name: &'a str,
+        /// Abscissae.
+        x: Vec<f32>,
+        /// Ordinates.
+        y: Vec<f32>,
+        /// Ends of the band about the curve, or of the error bars; empty where there are none.
+        low: Vec<f32>,
+        /// Upper ends.
+        high: Vec<f32>,
+        /// Where the points lie: from the left.
+        right: Vec<f32>,
+        /// Where the points lie: from the top.
+        down: Vec<f32>,
+    },
+    /// A map.
+    Map {
+        /// What its values are, or their unit.
+        name: &'a str,
+        /// Number of cells along x.
+        width: usize,
+        /// Centres of the first and the last cell along x.
+        x: (f32, f32),
+        /// Centres of the first and the last cell along y.
+        y: (f32, f32),
+        /// Values, row by row, from the lowest y; `null` where there is none.
+        values: Vec<f32>,
+        /// Left and right edge in the picture.
+        across: (f64, f64),
+        /// Lower and upper edge in the picture.
+        up: (f64, f64),
+    },
 }
 
 impl Panel {
@@ -403,17 +423,59 @@ impl Panel {
         [x, y]
     }
 
-    fn draw(&self, out: &mut String, frame: &Frame, id: &str) {
-        let (has_map, [x, y]) = (self.has_map(), self.spans());
+    /// From data to the picture, along x and along y.
+    fn mappings(&self, frame: &Frame) -> [Mapping; 2] {
+        let [x, y] = self.spans();
         let (left, bottom) = (frame.left, frame.top + frame.height);
-        let x = Mapping {
-            low: x.0,
-            high: x.1,
-            start: left,
-            end: left + frame.width,
-            signed_log: self.x.signed_log,
-        };
-        let y = Mapping { low: y.0, high: y.1, start: bottom, end: frame.top, signed_log: self.y.signed_log };
+        let (right, signed_log) = (left + frame.width, self.x.signed_log);
+        [
+            Mapping { low: x.0, high: x.1, start: left, end: right, signed_log },
+            Mapping { low: y.0, high: y.1, start: bottom, end: frame.top, signed_log: self.y.signed_log },
+        ]
+    }
+
+    /// What can be read off it.
+    fn marks(&self, [x, y]: [Mapping; 2]) -> Vec<Mark<'_>> {
+        let mut marks = Vec::new();
+        for layer in &self.layers {
+            match layer {
+                Layer::Curve { name, style, x: xs, y: ys } => {
+                    let band = self.layers.iter().find_map(|l| match l {
+                        Layer::Band { style: of, x, low, high, .. } if of == style && x == xs => {
+                            Some((low, high))
+                        }
+                        _ => None,
+                    });
+                    let interval = |k: usize| band.map(|(low, high)| (low[k], high[k]));
+                    marks.push(mark(name, xs, ys, interval, x, y));
+                }
+                Layer::Points { name, x: xs, y: ys, error, .. } => {
+                    let interval = |k: usize| error.get(k).map(|e| (ys[k] - e, ys[k] + e));
+                    marks.push(mark(name, xs, ys, interval, x, y));
+                }
+                Layer::Map { name, width, x: across, y: up, values, .. } if !values.is_empty() => {
+                    let centres = |(low, high): (f64, f64), cells: usize| {
+                        let half = 0.5 * (high - low) / cells as f64;
+                        ((low + half) as f32, (high - half) as f32)
+                    };
+                    marks.push(Mark::Map {
+                        name,
+                        width: *width,
+                        x: centres(*across, *width),
+                        y: centres(*up, values.len() / width),
+                        values: values.iter().map(|&v| v as f32).collect(),
+                        across: (x.at(across.0), x.at(across.1)),
+                        up: (y.at(up.0), y.at(up.1)),
+                    });
+                }
+                Layer::Map { .. } | Layer::Band { .. } | Layer::Rule { .. } => {}
+            }
+        }
+        marks
+    }
+
+    fn draw(&self, out: &mut String, frame: &Frame, id: &str) {
+        let (has_map, [x, y]) = (self.has_map(), self.mappings(frame));
         let clip = format!("{id}-clip");
         let _ = writeln!(
             out,
@@ -526,7 +588,9 @@ impl Panel {
                 Layer::Points { name, style, .. } => (name, *style, marker(*style, at + 11.0, y - 4.0)),
                 Layer::Rule { .. } | Layer::Map { .. } => continue,
             };
-            if name.is_empty() {
+            // The last ones give way to the panel beside; they can be read off all the same.
+            let fits = at + 27.0 + text_width(name) <= frame.left + frame.width + frame.right;
+            if name.is_empty() || !fits {
                 continue;
             }
             let _ = writeln!(
@@ -539,6 +603,33 @@ impl Panel {
             );
             at += 27.0 + text_width(name) + 14.0;
         }
+    }
+}
+
+/// The points of a curve that lie between the axes.
+fn mark<'a>(
+    name: &'a str,
+    xs: &[f64],
+    ys: &[f64],
+    interval: impl Fn(usize) -> Option<(f64, f64)>,
+    x: Mapping,
+    y: Mapping,
+) -> Mark<'a> {
+    let seen: Vec<usize> = (0..xs.len()).filter(|&k| x.holds(xs[k]) && y.holds(ys[k])).collect();
+    let each = |of: &dyn Fn(usize) -> f64| seen.iter().map(|&k| of(k) as f32).collect::<Vec<_>>();
+    let tenths = |v: f64| (v * 10.0).round() / 10.0;
+    let known = seen.iter().any(|&k| interval(k).is_some());
+    let end = |of: fn((f64, f64)) -> f64| {
+        if known { each(&|k| interval(k).map_or(f64::NAN, of)) } else { Vec::new() }
+    };
+    Mark::Curve {
+        name,
+        x: each(&|k| xs[k]),
+        y: each(&|k| ys[k]),
+        low: end(|i| i.0),
+        high: end(|i| i.1),
+        right: each(&|k| tenths(x.at(xs[k]))),
+        down: each(&|k| tenths(y.at(ys[k]))),
     }
 }
 
@@ -890,6 +981,42 @@ mod tests {
         }
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert_eq!(svg, plot().to_svg());
+    }
+
+    /// Every value that is drawn can be read, and lies where it is drawn.
+    #[test]
+    fn what_is_drawn_can_be_read() {
+        let plot = plot();
+        let svg = plot.to_svg();
+        let fields = plot.fields();
+        let Mark::Curve { name, x, y, low, high, right, down } = &fields[0].marks[0] else {
+            panic!("a curve")
+        };
+        // A value is missing at 1; the band, which ends at 1, is not that of the curve.
+        assert_eq!((*name, x.as_slice(), y.as_slice()), ("a", &[0.0, 2.0, 3.0][..], &[0.0, 1.0, 2.0][..]));
+        assert!(low.is_empty() && high.is_empty());
+        assert!(
+            svg.contains(&format!("M{} {}M{} {}L", right[0], down[0], right[1], down[1])),
+            "{right:?} {down:?}"
+        );
+        let Mark::Curve { name, low, high, .. } = &fields[0].marks[1] else { panic!("points") };
+        assert_eq!((*name, low.as_slice(), high.as_slice()), ("b", &[0.8][..], &[1.2][..]));
+        let Mark::Map { width, x, y, values, across, up, .. } = &fields[1].marks[0] else { panic!("a map") };
+        assert_eq!((*width, *x, *y, values.len()), (2, (0.5, 1.5), (0.5, 1.5), 4));
+        let field = &fields[1];
+        assert_eq!((across.1, up.0), (field.left + field.width, field.top + field.height));
+        let json = serde_json::to_value(&fields).unwrap();
+        assert!(json[1]["marks"][0]["values"][3].is_null(), "a cell without a value");
+    }
+
+    #[test]
+    fn a_band_about_a_curve_is_read_with_it() {
+        let mut plot = plot();
+        let Layer::Band { x, low, high, .. } = &mut plot.panels[0].layers[0] else { panic!("a band") };
+        (*x, *low, *high) = (vec![0.0, 1.0, 2.0, 3.0], vec![-1.0; 4], vec![1.0; 4]);
+        let fields = plot.fields();
+        let Mark::Curve { low, high, .. } = &fields[0].marks[0] else { panic!("a curve") };
+        assert_eq!((low.as_slice(), high.as_slice()), (&[-1.0; 3][..], &[1.0; 3][..]));
     }
 
     #[test]

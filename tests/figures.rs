@@ -108,6 +108,22 @@ fn pieces_may_be_done_in_any_order_and_cross_as_arrays() {
     assert_eq!(again.tables[0].to_csv(), first.tables[0].to_csv());
 }
 
+#[test]
+fn work_in_slices_gives_the_same_as_work_at_once() {
+    let figure = Figure::named("stability").unwrap();
+    let last = figure.pieces(Size::Small).len() - 1;
+    let mut work = figure.start(Size::Small, last);
+    let mut slices = 0;
+    let piece = loop {
+        slices += 1;
+        if let Some(piece) = work.advance(100_000) {
+            break piece;
+        }
+    };
+    assert!(slices > 100, "only {slices} slices");
+    assert_eq!(piece, figure.run(Size::Small, last));
+}
+
 /// What theory or the text demands, whatever the number of runs.
 #[test]
 fn claims_that_must_hold_do() {

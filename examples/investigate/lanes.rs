@@ -1,8 +1,10 @@
 //! Two lanes without reaction time, with the choices that the paper leaves open, and plausible slips, as
-//! parameters. Plain loops over all pairs.
+//! parameters. One order of all vehicles round the ring is kept sorted, so that who is ahead and who passed whom
+//! costs a sweep and not a loop over all pairs.
 
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
+use ringroad::exp::exp_within;
 use std::fmt;
 
 pub const N: usize = 50;
@@ -106,15 +108,53 @@ impl fmt::Display for Reading {
         let reset = if self.reset_always { "every attempt" } else { "a change" };
         write!(
             f,
-            "{:?} | {:?} | {:?} | {:?} | {:?} | {reset}",
-            self.gap, self.rise, self.attempt, self.passes, self.order
+            "{:?} | {:?} | {:?} | {:?} | {:?} | {reset} | {} s",
+            self.gap, self.rise, self.attempt, self.passes, self.order, self.dt
         )
     }
 }
 
-/// The distance from b ahead to a, in (0, L]: one exactly alongside is a lap ahead.
-fn ahead_by(a: f64, b: f64) -> f64 {
-    if a > b { a - b } else { a - b + L }
+/// All vehicles in the order of their positions modulo a period.
+struct Cycle {
+    period: f64,
+    ring: [usize; N],
+    /// Positions, up to whole periods such that they rise along `ring` and span less than a period.
+    key: [f64; N],
+}
+
+impl Cycle {
+    fn new(x: &[f64; N], period: f64) -> Self {
+        let key = x.map(|x| x.rem_euclid(period));
+        let mut ring: [usize; N] = std::array::from_fn(|j| j);
+        ring.sort_by(|&a, &b| key[a].total_cmp(&key[b]));
+        Self { period, ring, key }
+    }
+
+    /// Moves every vehicle and sorts again; adds who has come past whom.
+    fn advance(&mut self, way: &[f64; N], passes: &mut Vec<(usize, usize)>) {
+        for (key, way) in self.key.iter_mut().zip(way) {
+            *key += way;
+        }
+        loop {
+            for end in 1..N {
+                let mut k = end;
+                while k > 0 && self.key[self.ring[k - 1]] > self.key[self.ring[k]] {
+                    passes.push((self.ring[k - 1], self.ring[k]));
+                    self.ring.swap(k - 1, k);
+                    k -= 1;
+                }
+            }
+            // The last may have come past the first, a period on.
+            let (first, last) = (self.ring[0], self.ring[N - 1]);
+            if self.key[last] <= self.key[first] + self.period {
+                return;
+            }
+            passes.push((last, first));
+            self.key[last] -= self.period;
+            self.key[first] += self.period;
+            self.ring.swap(0, N - 1);
+        }
+    }
 }
 
 /// The state.
@@ -122,11 +162,20 @@ pub struct Lanes {
     reading: Reading,
     generator: ChaCha8Rng,
     /// Unwrapped positions.
-    pub x: [f64; N],
-    /// Positions in [0, L), now and a step ago.
+    x: [f64; N],
+    /// Positions in [0, L), now and a step ago, and whether anyone has come past 0 in between.
     wrapped: [f64; N],
     before: [f64; N],
-    pub lane: [usize; N],
+    over_origin: bool,
+    cycle: Cycle,
+    /// Modulo half the ring: there, who is passed at the far side is passed as well.
+    half: Option<Cycle>,
+    /// Who came past whom in the step before, whatever the lanes.
+    passed: Vec<(usize, usize)>,
+    lane: [usize; N],
+    /// The vehicle next ahead in each lane and its distance; none: infinity.
+    next: [[usize; N]; 2],
+    gap: [[f64; N]; 2],
     sensitivity: [f64; N],
     frustration: [f64; N],
     pub changes: [u32; N],
@@ -150,68 +199,71 @@ impl Lanes {
         if aggressive {
             sensitivity[0] = 2.0;
         }
-        Self {
+        let far = reading.passes == Passes::FarSideToo;
+        let mut lanes = Self {
             reading,
             generator: ChaCha8Rng::seed_from_u64(seed),
             x,
             wrapped: x,
             before: x,
+            over_origin: false,
+            cycle: Cycle::new(&x, L),
+            half: far.then(|| Cycle::new(&x, L / 2.0)),
+            passed: Vec::new(),
             lane,
+            next: [[usize::MAX; N]; 2],
+            gap: [[f64::INFINITY; N]; 2],
             sensitivity,
             frustration: [0.0; N],
             changes: [0; N],
             next_beside: [usize::MAX; N],
             crashed: false,
             first: true,
-        }
+        };
+        lanes.look();
+        lanes
     }
 
-    /// The vehicle next ahead of j in a lane and its distance in (0, L]; none: infinity.
-    fn ahead(&self, j: usize, lane: usize) -> (usize, f64) {
-        let mut best = (usize::MAX, f64::INFINITY);
-        for i in 0..N {
-            if self.lane[i] == lane && i != j {
-                let gap = ahead_by(self.wrapped[i], self.wrapped[j]);
-                if gap < best.1 {
-                    best = (i, gap);
-                }
+    /// Finds the vehicles next ahead: backwards round the ring, from the first of each lane a lap ahead.
+    fn look(&mut self) {
+        let Cycle { ring, key, .. } = &self.cycle;
+        let mut ahead = [(usize::MAX, f64::INFINITY); 2];
+        for (lane, ahead) in ahead.iter_mut().enumerate() {
+            if let Some(&j) = ring.iter().find(|&&j| self.lane[j] == lane) {
+                *ahead = (j, key[j] + L);
             }
         }
-        best
-    }
-
-    fn headway(&self, j: usize) -> f64 {
-        self.ahead(j, self.lane[j]).1.min(L)
+        for &j in ring.iter().rev() {
+            for (lane, ahead) in ahead.iter().enumerate() {
+                self.next[lane][j] = ahead.0;
+                self.gap[lane][j] = ahead.1 - key[j];
+            }
+            ahead[self.lane[j]] = (j, key[j]);
+        }
     }
 
     fn passes(&mut self, j: usize) -> f64 {
-        let mut count = 0.0;
-        if self.reading.passes == Passes::NextChanged {
-            let next = self.ahead(j, 1 - self.lane[j]).0;
-            if !self.first && next != self.next_beside[j] {
-                count = 1.0;
+        let other = 1 - self.lane[j];
+        match self.reading.passes {
+            Passes::Never => 0.0,
+            Passes::NextChanged => {
+                let next = self.next[other][j];
+                let changed = !self.first && next != self.next_beside[j];
+                self.next_beside[j] = next;
+                f64::from(u8::from(changed))
             }
-            self.next_beside[j] = next;
-            return count;
-        }
-        for i in 0..N {
-            if self.lane[i] == self.lane[j] {
-                continue;
+            Passes::Wrapped if self.over_origin => {
+                let passed = |i: &usize| {
+                    self.lane[*i] == other
+                        && self.wrapped[*i] > self.wrapped[j]
+                        && self.before[*i] <= self.before[j]
+                };
+                (0..N).filter(passed).count() as f64
             }
-            let (then, now) =
-                (ahead_by(self.before[i], self.before[j]), ahead_by(self.wrapped[i], self.wrapped[j]));
-            let alongside = then - now > L / 2.0;
-            let passed = match self.reading.passes {
-                Passes::Alongside => alongside,
-                Passes::FarSideToo => alongside || (then <= L / 2.0 && now > L / 2.0 && now - then < L / 2.0),
-                Passes::Wrapped => self.wrapped[i] > self.wrapped[j] && self.before[i] <= self.before[j],
-                Passes::NextChanged | Passes::Never => false,
-            };
-            if passed {
-                count += 1.0;
+            Passes::Alongside | Passes::FarSideToo | Passes::Wrapped => {
+                self.passed.iter().filter(|(i, passed)| *passed == j && self.lane[*i] == other).count() as f64
             }
         }
-        count
     }
 
     fn is_free(&self, j: usize, lane: usize) -> bool {
@@ -224,14 +276,22 @@ impl Lanes {
         })
     }
 
-    fn probability(&self, frustration: f64) -> f64 {
-        let p = std::f64::consts::FRAC_2_PI * frustration.atan();
-        let rescaled = |p: f64| 1.0 - (1.0 - p).powf(self.reading.dt);
-        match self.reading.attempt {
-            Attempt::Rescaled => rescaled(p),
-            Attempt::Twice => rescaled(rescaled(p)),
-            Attempt::EveryStep => p,
+    /// Whether an attempt is made in this step, by a number uniform in [0, 1).
+    fn attempts(&self, frustration: f64, uniform: f64) -> bool {
+        let dt = self.reading.dt;
+        // −ln(1 − P) < 0.75 φ, which spares most of the costly formulas.
+        let bound = if self.reading.attempt == Attempt::EveryStep { 1.0 } else { dt };
+        if uniform >= 0.75 * frustration * bound {
+            return false;
         }
+        let p = std::f64::consts::FRAC_2_PI * frustration.atan();
+        let rescaled = |p: f64| 1.0 - (1.0 - p).powf(dt);
+        uniform
+            < match self.reading.attempt {
+                Attempt::Rescaled => rescaled(p),
+                Attempt::Twice => rescaled(rescaled(p)),
+                Attempt::EveryStep => p,
+            }
     }
 
     /// One step.
@@ -246,13 +306,13 @@ impl Lanes {
         for k in 0..N {
             let j = if order == Order::Backwards { N - 1 - k } else { k };
             let other = 1 - self.lane[j];
-            let (own, beside) = (self.headway(j), self.ahead(j, other).1);
+            let (own, beside) = (self.gap[1 - other][j], self.gap[other][j]);
             let mut frustration = self.frustration[j];
             frustration += if own < beside { change } else { 0.0 } - if own > beside { change } else { 0.0 };
             frustration = frustration.max(0.0) + p * self.passes(j);
             self.frustration[j] = frustration;
             let uniform = (self.generator.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0;
-            if uniform < self.probability(frustration) {
+            if self.attempts(frustration, uniform) {
                 if self.is_free(j, other) {
                     if order == Order::Together { together.push(j) } else { self.change(j) }
                 } else if reset_always {
@@ -264,24 +324,40 @@ impl Lanes {
             self.change(j);
         }
         self.first = false;
-        let headways: Vec<f64> = (0..N).map(|j| self.headway(j)).collect();
+        let headways: [f64; N] = std::array::from_fn(|j| self.gap[self.lane[j]][j]);
         if headways.iter().any(|&h| h <= C) {
             self.crashed = true;
             return;
         }
+        let way: [f64; N] = std::array::from_fn(|j| {
+            let v = V - V * exp_within(-(self.sensitivity[j] / V) * (headways[j] - D));
+            v.max(0.0) * dt
+        });
         self.before = self.wrapped;
-        for (j, headway) in headways.iter().enumerate() {
-            let v = V - V * (-(self.sensitivity[j] / V) * (headway - D)).exp();
-            self.x[j] += v.max(0.0) * dt;
-            self.wrapped[j] = self.x[j].rem_euclid(L);
+        self.over_origin = false;
+        for (j, way) in way.iter().enumerate() {
+            self.x[j] += way;
+            self.wrapped[j] += way;
+            if self.wrapped[j] >= L {
+                self.wrapped[j] -= L;
+                self.over_origin = true;
+            }
         }
+        self.passed.clear();
+        self.cycle.advance(&way, &mut self.passed);
+        if let Some(half) = &mut self.half {
+            self.passed.clear();
+            half.advance(&way, &mut self.passed);
+        }
+        self.look();
     }
 
     fn change(&mut self, j: usize) {
         self.lane[j] = 1 - self.lane[j];
         self.frustration[j] = 0.0;
         self.changes[j] += 1;
-        self.next_beside[j] = self.ahead(j, 1 - self.lane[j]).0;
+        self.look();
+        self.next_beside[j] = self.next[1 - self.lane[j]][j];
     }
 
     pub fn imbalance(&self) -> f64 {

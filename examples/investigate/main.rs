@@ -1,9 +1,9 @@
 //! Where the paper and Ringroad differ: which readings of the paper would give its numbers?
 //!
-//! `cargo run --release --example investigate -- crash|growth|balance|flow` prints the tables of
-//! `docs/reproduction.md`. The readings are variants of the model, so they live here, in small simulators of
-//! their own with plain loops over all pairs, and not in the core; the literal variant is held against the core
-//! first.
+//! `cargo run --release --example investigate -- crash|growth|balance|maps|search|flow` prints the tables of
+//! `docs/reproduction.md`; `maps` writes its pictures and their numbers into `docs/reproduction/`, or into a folder
+//! that is named. The readings are variants of the model, so they live here, in small simulators of their own, and
+//! not in the core; the literal variant is held against the core first.
 
 #![allow(clippy::disallowed_methods)] // nothing here must have the same bits everywhere
 
@@ -12,17 +12,22 @@ mod crash;
 mod flow;
 mod growth;
 mod lanes;
+mod maps;
 mod single;
 
+use std::path::Path;
+
 fn main() {
-    let name = std::env::args().nth(1).unwrap_or_default();
-    match name.as_str() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.first().map_or("", String::as_str) {
         "crash" => crash::main(),
         "growth" => growth::main(),
         "balance" => balance::main(),
+        "maps" => maps::main(Path::new(arguments.get(1).map_or("docs/reproduction", String::as_str))),
+        "search" => maps::search(),
         "flow" => flow::main(),
         _ => {
-            eprintln!("usage: investigate crash|growth|balance|flow");
+            eprintln!("usage: investigate crash|growth|balance|maps [FOLDER]|search|flow");
             std::process::exit(2);
         }
     }

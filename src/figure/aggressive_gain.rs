@@ -13,12 +13,18 @@ pub(super) const FIGURE: Figure = Figure {
     id: ID,
     title: "What aggressive drivers gain",
     caption: "Two lanes of 1 km, staggered, steps of 0.05 s, no reaction time, r = 0.1 /s, p = 0.1, 500 s. One aggressive \
-              driver among 50 of λ from 1 to 4; a share of 50 with λ = 2; one with λ = 2 among 10 to 240 \
+              driver among 50 of λ from 1 to 4; a share of 50 with λ = 2; one with λ = 2 among 20 to 200 \
               vehicles. 20 runs each, seeds 1 to 20. Gain: mean distance of the aggressive over that of all \
               others; mean and 95 % confidence interval.",
     beyond: true,
-    pieces: |size| points(size).iter().map(Point::name).collect(),
-    run,
+    pieces: |size| {
+        let each = |point: &Point| {
+            let name = point.name();
+            (1..=runs(size)).map(move |seed| format!("{name}, run {seed}")).collect::<Vec<_>>()
+        };
+        points(size).iter().flat_map(each).collect()
+    },
+    start: |size, piece| Box::new(move || run(size, piece)),
     assemble,
 };
 
@@ -61,37 +67,38 @@ fn points(size: Size) -> Vec<Point> {
     let lambdas: &[f64] = size.choose(&[1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0], &[2.0, 4.0]);
     let shares: &[f64] =
         size.choose(&[2.0, 4.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0], &[10.0]);
-    let counts: Vec<usize> = size.choose((1..=12).map(|k| 20 * k).collect(), vec![50, 100]);
+    // From 140 on nobody changes lane.
+    let counts: &[usize] = size.choose(&[20, 40, 60, 80, 100, 120, 140, 200], &[50, 100]);
     let lambdas = lambdas.iter().map(|&l| Point::Sensitivity(l));
     let shares = shares.iter().map(|&s| Point::Share(s));
-    lambdas.chain(shares).chain(counts.into_iter().map(Point::Vehicles)).collect()
+    lambdas.chain(shares).chain(counts.iter().map(|&n| Point::Vehicles(n))).collect()
 }
 
-fn runs(size: Size) -> u64 {
+fn runs(size: Size) -> usize {
     size.choose(20, 3)
 }
 
-/// For each run: gain in per cent, lane changes of an aggressive and of another driver, mean speed of all.
+/// Gain in per cent, lane changes of an aggressive and of another driver, mean speed of all.
 fn run(size: Size, piece: usize) -> Piece {
-    let point = points(size)[piece];
-    let mut columns = vec![Vec::new(); 4];
-    for seed in 1..=runs(size) {
-        let scenario = point.scenario(size, seed);
-        let (_, simulation) = measured(&scenario, &[]);
-        let split = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
-            let each = (0..simulation.vehicles())
-                .filter(|&j| (simulation.driver(j).sensitivity > 1.0) == aggressive);
-            mean(&each.map(f).collect::<Vec<_>>())
-        };
-        let distance = |j: usize| simulation.distance(j);
-        let changes = |j: usize| f64::from(simulation.lane_changes(j));
-        columns[0].push(100.0 * (split(&distance, true) / split(&distance, false) - 1.0));
-        columns[1].push(split(&changes, true));
-        columns[2].push(split(&changes, false));
-        let all: Vec<f64> = (0..simulation.vehicles()).map(distance).collect();
-        columns[3].push(mean(&all) / simulation.time());
+    let (point, seed) = (piece / runs(size), piece % runs(size) + 1);
+    let scenario = points(size)[point].scenario(size, seed as u64);
+    let (_, simulation) = measured(&scenario, &[]);
+    let split = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
+        let each =
+            (0..simulation.vehicles()).filter(|&j| (simulation.driver(j).sensitivity > 1.0) == aggressive);
+        mean(&each.map(f).collect::<Vec<_>>())
+    };
+    let distance = |j: usize| simulation.distance(j);
+    let changes = |j: usize| f64::from(simulation.lane_changes(j));
+    let all: Vec<f64> = (0..simulation.vehicles()).map(distance).collect();
+    Piece {
+        columns: vec![vec![
+            100.0 * (split(&distance, true) / split(&distance, false) - 1.0),
+            split(&changes, true),
+            split(&changes, false),
+            mean(&all) / simulation.time(),
+        ]],
     }
-    Piece { columns }
 }
 
 /// A curve: points of one kind.
@@ -104,11 +111,12 @@ struct Series {
 impl Series {
     fn of(size: Size, pieces: &[Piece], x: impl Fn(Point) -> Option<f64>) -> Self {
         let mut series = Self { x: Vec::new(), values: Default::default() };
-        for (point, piece) in points(size).into_iter().zip(pieces) {
+        for (point, of_point) in points(size).into_iter().zip(pieces.chunks(runs(size))) {
             if let Some(at) = x(point) {
                 series.x.push(at);
-                for (values, runs) in series.values.iter_mut().zip(&piece.columns) {
-                    values.push(Estimate::mean(runs));
+                for (k, values) in series.values.iter_mut().enumerate() {
+                    let each: Vec<f64> = of_point.iter().map(|p| p.columns[0][k]).collect();
+                    values.push(Estimate::mean(&each));
                 }
             }
         }
@@ -193,7 +201,7 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
     let upper = [
         lambda.panels(&Axis::from_to("λ of the aggressive driver (1/s)", 1.0, 4.2)),
         share.panels(&Axis::from_to("share of aggressive drivers (%)", 0.0, 100.0)),
-        density.panels(&Axis::from_to("vehicles on two lanes of 1 km", 0.0, 250.0)),
+        density.panels(&Axis::from_to("vehicles on two lanes of 1 km", 0.0, 210.0)),
     ];
     let (gains, changes): (Vec<_>, Vec<_>) = upper.into_iter().map(|[gain, changes]| (gain, changes)).unzip();
     let plot = Plot {

@@ -17,7 +17,7 @@ pub(super) const FIGURE: Figure = Figure {
               uniform rings of 1 km that were run for 60 s, their mean speed times their density.",
     beyond: false,
     pieces: |size| rings(size).iter().map(|n| format!("ring of {n} vehicles")).collect(),
-    run,
+    start: |size, piece| Box::new(move || run(size, piece)),
     assemble,
 };
 

@@ -88,6 +88,21 @@ impl Piece {
     }
 }
 
+/// A piece of work that has begun. Where nothing else can stop it, it is done in slices, with a look at the person's
+/// wishes in between.
+pub trait Work {
+    /// Goes on for about so many updates of a vehicle, or to its end where it is short; gives the piece when it is
+    /// done.
+    fn advance(&mut self, updates: u64) -> Option<Piece>;
+}
+
+/// Work that is short enough to be done at once.
+impl<F: FnMut() -> Piece> Work for F {
+    fn advance(&mut self, _: u64) -> Option<Piece> {
+        Some(self())
+    }
+}
+
 /// A table of a figure, with what made it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureTable {
@@ -159,7 +174,7 @@ pub struct Figure {
     #[serde(skip)]
     pieces: fn(Size) -> Vec<String>,
     #[serde(skip)]
-    run: fn(Size, usize) -> Piece,
+    start: fn(Size, usize) -> Box<dyn Work>,
     #[serde(skip)]
     assemble: fn(Size, &[Piece]) -> Outcome,
 }
@@ -189,12 +204,25 @@ impl Figure {
         (self.pieces)(size)
     }
 
-    /// Does a piece of work: a run or a few, well under a second each.
+    /// Begins a piece of work: a run or a few.
+    ///
+    /// # Panics
+    /// If there is no such piece.
+    pub fn start(&self, size: Size, piece: usize) -> Box<dyn Work> {
+        (self.start)(size, piece)
+    }
+
+    /// Does a piece of work.
     ///
     /// # Panics
     /// If there is no such piece.
     pub fn run(&self, size: Size, piece: usize) -> Piece {
-        (self.run)(size, piece)
+        let mut work = self.start(size, piece);
+        loop {
+            if let Some(piece) = work.advance(u64::MAX) {
+                return piece;
+            }
+        }
     }
 
     /// Tables, picture and claims from all pieces, in their order.

@@ -1,11 +1,13 @@
 //! Growth against reaction time, in the simulation and in theory, and the critical reaction time against N.
 
 use super::cyclic::{Depths, Period, TAKEN, round_trip};
-use super::{Figure, FigureTable, Outcome, Piece, Size, column, indicator, measured, nudged};
+use super::{Figure, FigureTable, Outcome, Piece, Size, Work, column, indicator, nudged};
 use crate::claim::{Claim, Estimate, Expected};
 use crate::driver::Driver;
 use crate::measurement::Measurement;
 use crate::plot::{Axis, Layer, Panel, Plot};
+use crate::probe::Probe;
+use crate::simulation::Simulation;
 use crate::stability::equal::{EqualRing, Time};
 use crate::table::{Column, Table};
 
@@ -21,7 +23,7 @@ pub(super) const FIGURE: Figure = Figure {
               the longest wave begins to grow.",
     beyond: false,
     pieces,
-    run,
+    start,
     assemble,
 };
 
@@ -47,13 +49,18 @@ fn ring(vehicles: usize) -> EqualRing {
     EqualRing { vehicles, slope: Driver::default().slope(1000.0 / vehicles as f64) }
 }
 
-fn run(size: Size, piece: usize) -> Piece {
+fn start(size: Size, piece: usize) -> Box<dyn Work> {
     let delays = reaction_times(size);
     if let Some(&delay) = delays.get(piece) {
-        return Piece { columns: vec![growth(delay)] };
+        return Box::new(move || Piece { columns: vec![growth(delay)] });
     }
-    let vehicles = rings(size)[piece - delays.len()];
-    Piece { columns: vec![vec![critical_steps(vehicles, size.choose(3000.0, 2000.0))]] }
+    Box::new(Search {
+        vehicles: rings(size)[piece - delays.len()],
+        until: size.choose(3000.0, 2000.0),
+        fades: 20,
+        growing: 160,
+        run: None,
+    })
 }
 
 /// k with its standard error, time of a collision, complete round trips, end of the run, upward crossings of vehicle 21.
@@ -71,31 +78,64 @@ fn growth(reaction_time: f64) -> Vec<f64> {
     ]
 }
 
-/// The middle, in steps, between the largest delay at which the longest wave fades and the next, at which it grows.
-fn critical_steps(vehicles: usize, until: f64) -> f64 {
-    let grows = |steps: u32| {
-        let mut scenario = nudged(f64::from(steps) * STEP, 1e-3, until);
-        scenario.vehicles = vehicles;
-        let from = Some(500.0);
+/// Looks by bisection for the largest delay, in steps, at which the longest wave fades, and the next, at which it grows.
+struct Search {
+    vehicles: usize,
+    until: f64,
+    fades: u32,
+    growing: u32,
+    /// The run at the delay between the two.
+    run: Option<(Simulation, Box<dyn Probe>)>,
+}
+
+impl Search {
+    fn middle(&self) -> u32 {
+        u32::midpoint(self.fades, self.growing)
+    }
+
+    fn begin(&self) -> (Simulation, Box<dyn Probe>) {
+        // Far from the threshold a wave shows soon what it does.
+        let until = if self.growing - self.fades > 16 { 1000.0 } else { self.until };
+        let mut scenario = nudged(f64::from(self.middle()) * STEP, 1e-3, until);
+        scenario.vehicles = self.vehicles;
         let growth = Measurement::Growth {
             every: 1.0,
             modes: Some(1),
             lane: 1,
-            from,
+            from: Some(500.0),
             smallest: 1e-9,
             nonlinearity: 0.01,
         };
-        let (tables, simulation) = measured(&scenario, &[growth]);
-        let rate = column(&tables[0], "growth_rate_per_s")[0];
-        // No rate: the wave had left the linear regime by the start of the fit.
-        simulation.collision().is_some() || rate.is_nan() || rate > 0.0
-    };
-    let (mut fades, mut growing) = (20, 160);
-    while growing - fades > 1 {
-        let middle = u32::midpoint(fades, growing);
-        if grows(middle) { growing = middle } else { fades = middle }
+        let mut probe = growth.probe(&scenario).expect("measurements of figures are valid");
+        let simulation = Simulation::new(&scenario).expect("scenarios of figures are valid");
+        probe.observe(&simulation);
+        (simulation, probe)
     }
-    f64::from(fades) + 0.5
+}
+
+impl Work for Search {
+    /// The middle between the two, in steps.
+    fn advance(&mut self, updates: u64) -> Option<Piece> {
+        let mut steps = updates / self.vehicles as u64;
+        while self.growing - self.fades > 1 {
+            let (mut simulation, mut probe) = self.run.take().unwrap_or_else(|| self.begin());
+            while !simulation.is_finished() {
+                if steps == 0 {
+                    self.run = Some((simulation, probe));
+                    return None;
+                }
+                steps -= 1;
+                simulation.step();
+                probe.observe(&simulation);
+            }
+            let rate = column(&probe.table(), "growth_rate_per_s")[0];
+            // No rate: the wave had left the linear regime by the start of the fit.
+            let grows = simulation.collision().is_some() || rate.is_nan() || rate > 0.0;
+            let middle = self.middle();
+            if grows { self.growing = middle } else { self.fades = middle }
+        }
+        Some(Piece { columns: vec![vec![f64::from(self.fades) + 0.5]] })
+    }
 }
 
 fn assemble(size: Size, pieces: &[Piece]) -> Outcome {

@@ -29,7 +29,7 @@ pub(super) const FIGURE: Figure = Figure {
               slower. The run at 0.75 s ends in a collision.",
     beyond: false,
     pieces,
-    run,
+    start: |size, piece| Box::new(move || run(size, piece)),
     assemble,
 };
 
@@ -183,14 +183,14 @@ impl<'a> Case<'a> {
         }
     }
 
-    fn panels(&self, first: bool) -> [Panel; 3] {
+    fn panels(&self) -> [Panel; 3] {
         let [speeds, flow, map] = &self.tables;
         let delta = format!("Δ = {} s", self.reaction_time);
         let time = column(speeds, "time_s");
         let v = equilibrium_speed();
         let mut layers = vec![Layer::Rule { name: String::new(), vertical: false, at: 0.0, left: false }];
         for (style, c) in speeds.columns().iter().skip(1).enumerate() {
-            let name = if first { format!("{}", 1 + 10 * style) } else { String::new() };
+            let name = format!("{}", 1 + 10 * style);
             let y = column(speeds, &c.name).iter().map(|speed| speed - v).collect();
             layers.push(Layer::Curve { name, style, x: time.clone(), y });
         }
@@ -198,11 +198,11 @@ impl<'a> Case<'a> {
             let middles: Vec<f64> = (0..TAKEN.periods).map(|n| n as f64 + 0.5).collect();
             let x = middles.iter().map(|n| n * round_trip()).collect();
             let y = middles.iter().map(|n| -fitted.amplitude * exp(fitted.rate * (n + 0.5))).collect();
-            layers.push(Layer::Curve { name: String::new(), style: 5, x, y });
+            layers.push(Layer::Curve { name: "fit".into(), style: 5, x, y });
         }
         let x = Axis::from_to("time (s)", 0.0, 300.0);
         let speeds_panel = Panel {
-            title: format!("{delta}: speeds{}", if first { " of five vehicles" } else { "" }),
+            title: format!("{delta}: speeds of five vehicles"),
             x: x.clone(),
             y: Axis::signed_log("speed − v∞ (m/s)"),
             layers,
@@ -277,8 +277,8 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
     let how = "runs at reaction times of 0, 0.5 and 0.75 s; every vehicle, every number of periods, two kinds of period, two fits";
     tables.push(FigureTable::summary("waves-growth", growth_table(&cases), &base, how));
     let mut rows: [Vec<Panel>; 3] = Default::default();
-    for (k, case) in cases.iter().enumerate() {
-        for (row, panel) in rows.iter_mut().zip(case.panels(k == 0)) {
+    for case in &cases {
+        for (row, panel) in rows.iter_mut().zip(case.panels()) {
             row.push(panel);
         }
     }

@@ -4,7 +4,7 @@
 use super::refusal;
 use crate::claim::{Claim, Verdict};
 use crate::error::Invalid;
-use crate::figure::{FIGURES, Figure, Outcome, Piece, Size};
+use crate::figure::{FIGURES, Figure, Outcome, Piece, Size, Work};
 use js_sys::Float64Array;
 use serde_json::{Value, json};
 use wasm_bindgen::JsError;
@@ -25,16 +25,28 @@ pub fn figures() -> String {
     Value::from(FIGURES.iter().map(one).collect::<Vec<_>>()).to_string()
 }
 
-/// Does one piece of a figure's work, counted from 0.
+/// One piece of a figure's work, counted from 0, in slices.
 #[wasm_bindgen]
-pub fn figure_piece(id: &str, piece: usize) -> Result<Vec<f64>, JsError> {
-    let figure = Figure::named(id).map_err(refusal)?;
-    let count = figure.pieces(Size::Full).len();
-    if piece >= count {
-        let allowed = format!("0 to {} for {id}", count - 1);
-        return Err(refusal(Invalid::new("piece", piece, allowed)));
+pub struct FigureWork(Box<dyn Work>);
+
+#[wasm_bindgen]
+impl FigureWork {
+    /// Begins it.
+    #[wasm_bindgen(constructor)]
+    pub fn new(id: &str, piece: usize) -> Result<FigureWork, JsError> {
+        let figure = Figure::named(id).map_err(refusal)?;
+        let count = figure.pieces(Size::Full).len();
+        if piece >= count {
+            let allowed = format!("0 to {} for {id}", count - 1);
+            return Err(refusal(Invalid::new("piece", piece, allowed)));
+        }
+        Ok(Self(figure.start(Size::Full, piece)))
     }
-    Ok(figure.run(Size::Full, piece).flat())
+
+    /// Goes on for about so many updates of a vehicle; gives what came out when it is done.
+    pub fn advance(&mut self, updates: u32) -> Option<Vec<f64>> {
+        self.0.advance(updates.into()).map(|piece| piece.flat())
+    }
 }
 
 /// A figure put together from all its pieces.

@@ -90,24 +90,119 @@ test('figures: a picture with maps is saved as PNG', async ({ open }) => {
   holds(colours > 0.01, `only ${colours} of the picture is blue`)
 })
 
-test('figures: cancel takes effect at once, and the figure can be run again', async ({ open }) => {
-  const page = await open('figures.html')
-  const figure = '#figure-frustration-flow'
+/** The rows of a table of a figure, as the command writes it, each by name of column. */
+function table(id, name) {
+  const [head, ...rows] = written(id).files.get(`${name}.csv`).toString().split('\n').filter(line => line !== '' && !line.startsWith('#'))
+  const names = head.split(',')
+  return rows.map(row => Object.fromEntries(row.split(',').map((value, k) => [names[k], Number(value)])))
+}
+
+/** A number as the page writes it: four digits, no trailing zeros. */
+const digits = value => String(Number(value.toPrecision(4))).replace('-', '\u2212')
+
+test('figures: values are read off the picture by pointer, by finger and by keyboard', async ({ open }) => {
+  const page = await open('figures.html', { hasTouch: true })
+  const figure = '#figure-load-balance'
   await page.waitForSelector(`${figure} .run`)
-  await page.click(`${figure} .run`)
-  await page.waitForFunction(f => document.querySelector(`${f} progress`).value > 0, figure)
-  const taken = await page.evaluate(async f => {
+  await runs(page, 'load-balance')
+  const at30 = table('load-balance', 'load-balance').find(row => row.time_s === 30)
+  const [low, high] = [-1, 1].map(sign => digits(at30.imbalance_mean + sign * at30.imbalance_half_interval))
+  const expected = `Difference between the lanes, r = 0.1, p = 0.2 · time (s): 30 · ΔN (vehicles): ${digits(at30.imbalance_mean)} (${low} to ${high})`
+  const reading = () => page.textContent(`${figure} .reading`)
+  const told = () => page.textContent(`${figure} .plot ~ [role=status]`)
+
+  // By keyboard: the second curve, sixty half seconds on, there and back again.
+  await page.focus(`${figure} .plot`)
+  await page.keyboard.press('ArrowRight')
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('Home')
+  for (let k = 0; k < 62; k++) await page.keyboard.press('ArrowRight')
+  for (let k = 0; k < 2; k++) await page.keyboard.press('ArrowLeft')
+  equal(await told(), expected, 'what a live region says')
+  equal(await reading(), expected, 'what is to be seen')
+  const ring = await page.locator(`${figure} svg .pointer`).boundingBox()
+  await page.keyboard.press('PageDown')
+  holds((await told()).startsWith('Flow at L/2'), await told())
+  await page.keyboard.press('Escape')
+  equal(await told(), '', 'after Escape')
+  equal(await page.locator(`${figure} svg .pointer`).count(), 0, 'rings')
+
+  // By pointer: a few pixels beside it is near enough, and nothing is told aloud.
+  const [x, y] = [ring.x + ring.width / 2, ring.y + ring.height / 2]
+  await page.mouse.move(x + 0.5, y + 1)
+  equal(await reading(), expected, 'under the pointer')
+  equal(await told(), '', 'told aloud')
+  await page.mouse.move(5, 5)
+  holds((await reading()).startsWith('Point at the picture'), await reading())
+
+  // By finger: what was found stays.
+  await page.touchscreen.tap(x, y)
+  equal(await reading(), expected, 'under the finger')
+  equal(page.problems.join(), '', 'errors on the page')
+})
+
+test('figures: a map tells the value of a cell', async ({ open }) => {
+  const page = await open('figures.html')
+  const figure = '#figure-waves'
+  await page.waitForSelector(`${figure} .run`)
+  await runs(page, 'waves')
+  const { left, top, width, height } = await page.$eval(`${figure} svg image`, image => {
+    image.scrollIntoView({ block: 'center' })
+    return image.getBoundingClientRect().toJSON()
+  })
+  const panels = await page.$$eval(`${figure} svg image`, all => all.length)
+  equal(panels, 6, 'maps')
+  // The first map is that of Δ = 0 s: its flow hardly changes; any cell is a row of the table.
+  const still = table('waves', 'waves-flow-0')
+  for (const [right, up] of [[0.5, 0.5], [0.99, 0.1], [0.3, 0.9]]) {
+    await page.mouse.move(left + width * right, top + height * (1 - up))
+    const said = await page.textContent(`${figure} .reading`)
+    const [, time, position, flow] = said.match(/time \(s\): ([\d.]+) · position \(m\): ([\d.]+) · .*: ([\d.]+)$/) ?? []
+    holds(flow !== undefined, said)
+    const beside = still.filter(row => Math.abs(row.time_s - time) <= 5 && Math.abs(row.position_m - position) <= 20)
+    holds(beside.some(row => digits(row.flow_veh_per_s) === flow), `${said}; the table has ${beside.map(row => row.flow_veh_per_s)}`)
+  }
+  // By keyboard, from cell to cell.
+  await page.focus(`${figure} .plot`)
+  const value = async key => {
+    await page.keyboard.press(key)
+    return page.textContent(`${figure} .plot ~ [role=status]`)
+  }
+  const [before, after] = [await value('ArrowUp'), await value('ArrowDown')]
+  holds(before !== after && before.includes('position (m)'), `${before} / ${after}`)
+  equal(await value('ArrowUp'), before, 'and up again')
+})
+
+/** Presses the cancel button of a figure that runs; milliseconds until it is idle. */
+const cancelled = (page, figure) =>
+  page.evaluate(async f => {
     const before = performance.now()
     document.querySelector(`${f} .stop`).click()
     while (document.querySelector(f).dataset.state !== 'idle') await new Promise(r => setTimeout(r, 1))
     return performance.now() - before
   }, figure)
-  holds(taken < 100, `cancel took ${taken} ms`)
-  equal(await page.textContent(`${figure} .status`), 'Cancelled.', 'what is said')
-  equal(await page.locator(`${figure} .plot`).count(), 0, 'pictures')
-  await runs(page, 'fundamental-diagram')
-  equal(page.problems.join(), '', 'errors on the page')
-})
+
+const CANCEL = {
+  'with workers': 'figures.html',
+  'without workers': 'policy-no-worker/ringroad.html#view=figures',
+}
+for (const [how, address] of Object.entries(CANCEL)) {
+  test(`figures: cancel takes effect at once, and the figure can be run again, ${how}`, async ({ open }) => {
+    const page = await open(address)
+    for (const id of ['frustration-flow', 'stability']) {
+      const figure = `#figure-${id}`
+      await page.waitForSelector(`${figure} .run`)
+      await page.click(`${figure} .run`)
+      await page.waitForFunction(f => document.querySelector(`${f} progress`).value > 0, figure)
+      const taken = await cancelled(page, figure)
+      holds(taken < 100, `cancel took ${taken} ms`)
+      equal(await page.textContent(`${figure} .status`), 'Cancelled.', 'what is said')
+      equal(await page.locator(`${figure} .plot`).count(), 0, 'pictures')
+    }
+    await runs(page, 'fundamental-diagram')
+    equal(page.problems.join(), '', 'errors on the page')
+  })
+}
 
 test('figures: those that wait are cancelled with the one that runs', async ({ open }) => {
   const page = await open('figures.html')

@@ -6,7 +6,7 @@ import { type Client, failure } from './client'
 export class LocalClient implements Client {
   readonly place = 'page'
   readonly budget = 8
-  #host = new Host()
+  #host = new Host(true)
 
   async ask<K extends Name>(name: K, ask: Ask<K>, progress?: (part: number) => void): Promise<Answer<K>> {
     try {

@@ -6,6 +6,8 @@ import { WorkerClient } from './worker'
 
 /** More than this gains little and costs memory. */
 const MOST = 8
+/** Milliseconds for which the page's own core keeps the page waiting. */
+const SLICE = 12
 
 export class Pool {
   /** The page's own core, for a page without workers; it has the figures' module by then. */
@@ -54,11 +56,15 @@ export class Pool {
       const pieces = new Array<P>(count)
       let [next, done] = [0, 0]
       const each = async (core: Client) => {
+        let breathed = performance.now()
         while (next < count && !cancelled) {
           const k = next++
           pieces[k] = await piece(core, k)
           progress(++done)
-          if (core.place === 'page') await new Promise(resolve => setTimeout(resolve))
+          if (core.place === 'page' && performance.now() - breathed > SLICE) {
+            await new Promise(resolve => setTimeout(resolve))
+            breathed = performance.now()
+          }
         }
       }
       await Promise.all(clients.map(each))
@@ -80,6 +86,7 @@ export class Pool {
       this.#clients = null
       void clients.then(all => all.forEach(c => c instanceof WorkerClient && c.close()), () => {})
     }
+    if (this.#stop && this.#own.place === 'page') void this.#own.ask('cancel', {})
     this.#stop?.()
   }
 }

@@ -254,24 +254,44 @@ export interface Claim {
   readonly method: string
 }
 
-/** What an axis of a picture spans. */
-export interface Span {
-  readonly label: string
-  readonly low: number
-  readonly high: number
-  /** Whether it is the signed logarithmic scale. */
-  readonly signed_log: boolean
-}
+/** What can be read off a panel, and where it lies in units of the picture; the core says more in `plot.rs`. */
+export type Mark =
+  | {
+      readonly kind: 'curve'
+      readonly name: string
+      readonly x: readonly number[]
+      readonly y: readonly number[]
+      /** Ends of the band or of the error bars; empty where there are none. */
+      readonly low: readonly (number | null)[]
+      readonly high: readonly (number | null)[]
+      readonly right: readonly number[]
+      readonly down: readonly number[]
+    }
+  | {
+      readonly kind: 'map'
+      readonly name: string
+      /** Cells along x. */
+      readonly width: number
+      /** Centres of the first and the last cell. */
+      readonly x: readonly [number, number]
+      readonly y: readonly [number, number]
+      /** Row by row, from the lowest y. */
+      readonly values: readonly (number | null)[]
+      /** Left and right edge; lower and upper edge. */
+      readonly across: readonly [number, number]
+      readonly up: readonly [number, number]
+    }
 
-/** The rectangle between the axes of a panel, in units of the picture. */
+/** The rectangle between the axes of a panel, in units of the picture, with the labels of its axes. */
 export interface Field {
   readonly title: string
   readonly left: number
   readonly top: number
   readonly width: number
   readonly height: number
-  readonly x: Span
-  readonly y: Span
+  readonly x: string
+  readonly y: string
+  readonly marks: readonly Mark[]
 }
 
 /** What a figure gives. */

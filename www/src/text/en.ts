@@ -405,8 +405,15 @@ export const en = {
     symbols: { agrees: '✓', differs: '✗', open: '?' },
     summary: (agree: number, differ: number, open: number): string =>
       `${agree + differ + open} claims: ${agree} agree, ${differ} differ, ${open} not determined by the paper.`,
-    point: (x: string, atX: string, y: string, atY: string): string => `${x}: ${atX} · ${y}: ${atY}`,
-    hint: 'Point at the picture to read values.',
+    point: (panel: string, name: string, x: string, atX: string, y: string, atY: string): string =>
+      `${panel}${name === '' ? '' : `, ${name}`} · ${x}: ${atX} · ${y}: ${atY}`,
+    interval: (low: string, high: string): string => ` (${low} to ${high})`,
+    cell: (panel: string, x: string, atX: string, y: string, atY: string, name: string, value: string): string =>
+      `${panel} · ${x}: ${atX} · ${y}: ${atY} · ${name}: ${value}`,
+    noValue: 'none',
+    kind: 'picture with values to read',
+    keys: 'Left and right go along a curve, up and down to another curve; in a map they go from cell to cell. Page up and page down go to another panel, Escape leaves.',
+    hint: 'Point at the picture, or tap it, to read values; or go to it with Tab and press the arrow keys.',
   },
 }
 

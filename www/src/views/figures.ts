@@ -2,12 +2,12 @@
 import { Cancelled } from '../client/client'
 import { Pool } from '../client/pool'
 import { el } from '../dom'
-import { exactly } from '../format'
 import { wasmBytes } from '../place'
 import { png, save } from '../save'
 import type { Session } from '../session'
-import type { Claim, Field, FigureInfo, FigureOutcome, Span } from '../shared/protocol'
+import type { Claim, FigureInfo, FigureOutcome } from '../shared/protocol'
 import { text } from '../text'
+import { readable } from './readout'
 
 const t = text.figures
 
@@ -145,9 +145,6 @@ function tally(claims: readonly Claim[]): string {
 function outcomeParts(info: FigureInfo, outcome: FigureOutcome): HTMLElement[] {
   const parsed = new DOMParser().parseFromString(outcome.svg, 'image/svg+xml').documentElement
   const picture = document.importNode(parsed, true) as unknown as SVGSVGElement
-  const reading = el('p', { class: 'reading' }, t.hint)
-  picture.addEventListener('pointermove', event => (reading.textContent = read(picture, outcome.fields, event) ?? t.hint))
-  picture.addEventListener('pointerleave', () => (reading.textContent = t.hint))
   const file = (name: string, make: () => void) => el('button', { type: 'button', onclick: make }, name)
   const files = el(
     'div',
@@ -158,38 +155,10 @@ function outcomeParts(info: FigureInfo, outcome: FigureOutcome): HTMLElement[] {
     ...outcome.tables.map(({ name, csv }) => file(`${name}.csv`, () => save(`${name}.csv`, 'text/csv', csv))),
   )
   return [
-    // Scrolls by itself on a narrow screen, by the keyboard too.
-    el('div', { class: 'plot', tabindex: 0, role: 'region', 'aria-label': t.plot(info.title) }, picture),
-    reading,
+    ...readable(info.title, picture, outcome.fields),
     files,
     outcome.claims.length === 0 ? el('p', { class: 'note' }, t.noClaims) : claimsTable(info, outcome.claims),
   ]
-}
-
-/** The smallest difference that the core's signed logarithmic scale tells from 0, and the largest. */
-const [SMALL, LARGE] = [0.01, 10]
-
-/** The value at a place of an axis, 0 … 1, with as many digits as a pixel is worth. */
-function valueAt({ low, high, signed_log }: Span, place: number, pixels: number): string {
-  if (signed_log) {
-    const u = 2 * place - 1
-    return (Math.sign(u) * SMALL * Math.expm1(Math.abs(u) * Math.log1p(LARGE / SMALL))).toPrecision(2)
-  }
-  const decimals = Math.max(0, Math.ceil(-Math.log10((high - low) / pixels)))
-  return exactly(low + place * (high - low), Math.min(decimals, 6))
-}
-
-/** What the place under the pointer means; null outside the axes. */
-function read(picture: SVGSVGElement, fields: readonly Field[], event: PointerEvent): string | null {
-  const matrix = picture.getScreenCTM()
-  if (!matrix) return null
-  const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix.inverse())
-  for (const field of fields) {
-    const [right, up] = [(x - field.left) / field.width, 1 - (y - field.top) / field.height]
-    if (right < 0 || right > 1 || up < 0 || up > 1) continue
-    return t.point(field.x.label, valueAt(field.x, right, field.width), field.y.label, valueAt(field.y, up, field.height))
-  }
-  return null
 }
 
 function claimsTable(info: FigureInfo, claims: readonly Claim[]): HTMLElement {

@@ -1,5 +1,5 @@
 // The core's side of the door for the paper's figures.
-import { FigureOutcome as Outcome, figure_piece, figures, initSync } from '../../pkg-figures/figures.js'
+import { FigureOutcome as Outcome, FigureWork, figures, initSync } from '../../pkg-figures/figures.js'
 import type { FigureInfo, FigureOutcome } from '../shared/protocol'
 
 export function start(wasm: ArrayBuffer): readonly FigureInfo[] {
@@ -7,7 +7,8 @@ export function start(wasm: ArrayBuffer): readonly FigureInfo[] {
   return JSON.parse(figures()) as FigureInfo[]
 }
 
-export const piece = (figure: string, k: number): Float64Array => figure_piece(figure, k)
+/** One piece of a figure's work. To be freed. */
+export const begin = (figure: string, piece: number) => new FigureWork(figure, piece)
 
 export function assemble(figure: string, pieces: Float64Array[]): FigureOutcome {
   const outcome = new Outcome(figure, pieces)

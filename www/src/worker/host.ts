@@ -9,6 +9,8 @@ import type { Answer, Ask, Frame, Name, Opened, Snapshot } from '../shared/proto
 const SLICE = 12
 /** Of a slice of the map of growth rates, which is done beside the traffic. */
 const MAP_SLICE = 6
+/** Updates of a vehicle that take a millisecond or a few. */
+const UPDATES = 100_000
 
 type Progress = (part: number) => void
 type Answers = { [K in Name]: (ask: Ask<K>, progress: Progress) => Answer<K> | Promise<Answer<K>> }
@@ -20,6 +22,12 @@ export class Host {
   #map = 0
   /** Steps that take about a millisecond: measured, since it depends on vehicles and machine. */
   #chunk = 16
+  /** Whether it stands on the page's own thread, where nothing but a pause lets anyone in. */
+  readonly #shared: boolean
+
+  constructor(shared: boolean) {
+    this.#shared = shared
+  }
 
   async answer<K extends Name>(name: K, ask: Ask<K>, progress: Progress): Promise<Answer<K>> {
     const answer = this.#answers[name] as (ask: Ask<K>, progress: Progress) => Answer<K>
@@ -184,7 +192,22 @@ export class Host {
       return null
     },
     figures: async ({ wasm }) => (await figures()).start(wasm),
-    piece: async ({ figure, piece }) => (await figures()).piece(figure, piece),
+    piece: async ({ figure, piece }) => {
+      const work = (await figures()).begin(figure, piece)
+      this.#cancelled = false
+      try {
+        for (let end = performance.now() + SLICE; ; ) {
+          const given = work.advance(UPDATES)
+          if (given) return given as Float64Array
+          if (this.#shared && performance.now() >= end) {
+            await this.#breathe()
+            end = performance.now() + SLICE
+          }
+        }
+      } finally {
+        work.free()
+      }
+    },
     assemble: async ({ figure, pieces }) => (await figures()).assemble(figure, pieces),
   }
 

@@ -16,7 +16,7 @@ const buffers = (answer: unknown): Transferable[] =>
 
 export function answerPage(): void {
   const scope = self as unknown as Scope
-  const host = new Host()
+  const host = new Host(false)
   scope.onmessage = async ({ data: { id, name, ask } }) => {
     try {
       const progress = (part: number) => scope.postMessage({ kind: 'progress', id, part })
