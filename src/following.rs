@@ -19,7 +19,7 @@
 
 use crate::driver::Driver;
 use crate::exp::exp_within;
-use crate::history::images;
+use crate::history::{History, images};
 #[cfg(doc)]
 use crate::reaction::Delays;
 use crate::vector::{CHUNK, Chunk, Extremes, Real, Width, chunks, chunks_mut, kernel};
@@ -247,6 +247,58 @@ kernel! {
     }
 }
 
+/// Chunks that are driven on together: what is kept of them stays near the processor.
+const BLOCK: usize = 64;
+
+kernel! {
+    /// As many steps of [`advance_alike`] with one delay, block by block: within the delay nobody sees what is
+    /// done meanwhile.
+    fn drive_on(
+        history: &mut History, delay: usize, first: u64, steps: usize, offset: &[f64], law: Law, dt: f64, still: f64,
+        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64],
+    ) {
+        let (law, dt, still) = (ChunkLaw::common(law), Chunk::splat(dt), Chunk::splat(still));
+        let count = speed.len() / CHUNK;
+        for begin in (0..count).step_by(BLOCK) {
+            let end = count.min(begin + BLOCK);
+            let offset = &chunks(offset)[begin..end];
+            let gap = &mut chunks_mut(gap)[begin..end];
+            let shortfall = &mut chunks_mut(shortfall)[begin..end];
+            let speed = &mut chunks_mut(speed)[begin..end];
+            for step in 1..=steps {
+                let refresh = (first + step as u64).is_multiple_of(REFRESH);
+                let (new, past) = history.ahead(step);
+                let seen = past.seen(delay);
+                let (old, new) = (&chunks(past.seen(1))[begin..end], &mut chunks_mut(new)[begin..end]);
+                let (seen, ahead) = (&chunks(seen)[begin..end], &chunks(&seen[1..])[begin..end]);
+                for k in 0..end - begin {
+                    let v = Chunk::load(&speed[k]);
+                    (Chunk::load(&old[k]) + v * dt).store(&mut new[k]);
+                    let now = Chunk::load(&ahead[k]) - Chunk::load(&seen[k]);
+                    let next = respond(now, &gap[k], &shortfall[k], &offset[k], law, refresh);
+                    now.store(&mut gap[k]);
+                    next.store(&mut shortfall[k]);
+                    still.most(law.max_speed - next).store(&mut speed[k]);
+                }
+            }
+        }
+    }
+}
+
+kernel! {
+    /// `least` gets the smallest true headway at the displacements `s`, where the leader of j is j + 1.
+    fn find_least_headway(s: &[f64], offset: &[f64], least: &mut f64) {
+        let count = offset.len() / CHUNK;
+        let (ahead, s, offset) = (&chunks(&s[1..])[..count], &chunks(s)[..count], &chunks(offset)[..count]);
+        let headway = |k: usize| Chunk::load(&offset[k]) + (Chunk::load(&ahead[k]) - Chunk::load(&s[k]));
+        let mut extremes = Extremes::of(headway(0));
+        for k in 1..count {
+            extremes.take(headway(k));
+        }
+        *least = extremes.reduced().0;
+    }
+}
+
 kernel! {
     /// Positions: x += v·dt. `extremes` gets the smallest and the largest speed.
     fn drive(old: &[f64], speed: &[f64], dt: f64, new: &mut [f64], extremes: &mut (f64, f64)) {
@@ -414,6 +466,34 @@ impl Following {
             ),
         }
         (extremes.0 * dt, extremes.1 * dt)
+    }
+
+    /// So many steps of `dt` seconds at once, no more than the `delay` that all have, after step `first`; the leader of
+    /// j is j + 1. False, with nothing done, where drivers have laws of their own.
+    pub(crate) fn drive_on(
+        &mut self,
+        history: &mut History,
+        delay: usize,
+        offset: &[f64],
+        dt: f64,
+        first: u64,
+        steps: usize,
+    ) -> bool {
+        let Some(law) = self.common else { return false };
+        debug_assert!(steps <= delay, "{steps} steps within a delay of {delay}");
+        // Not written as 0.0 in the kernel: the maximum with a constant 0 takes an instruction more.
+        let still = std::hint::black_box(0.0);
+        let State { gap, shortfall, speed } = &mut self.state;
+        drive_on(self.width, history, delay, first, steps, offset, law, dt, still, gap, shortfall, speed);
+        history.catch_up(steps);
+        true
+    }
+
+    /// The smallest true headway at the displacements `s`, m, where the leader of j is j + 1.
+    pub(crate) fn least_headway(&self, s: &[f64], offset: &[f64]) -> f64 {
+        let mut least = 0.0;
+        find_least_headway(self.width, s, offset, &mut least);
+        least
     }
 
     /// New displacements after a step of `dt` seconds; how far the slowest and the fastest have gone, m.

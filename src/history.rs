@@ -70,10 +70,31 @@ impl History {
     /// Makes the next row the present one: gives it, to be written, and the others, to be read.
     #[inline]
     pub fn advance(&mut self) -> (&mut [f64], Past<'_>) {
-        self.head = if self.head + 1 == self.rows { 0 } else { self.head + 1 };
-        let (before, rest) = self.data.split_at_mut(self.head * self.width);
+        self.head = self.after(1);
+        self.ahead(0)
+    }
+
+    /// The row that will be the present one so many steps on, to be written, and those that will be its past.
+    #[inline]
+    pub(crate) fn ahead(&mut self, steps: usize) -> (&mut [f64], Past<'_>) {
+        let start = self.after(steps) * self.width;
+        let (before, rest) = self.data.split_at_mut(start);
         let (row, after) = rest.split_at_mut(self.width);
         (row, Past { before, after, width: self.width })
+    }
+
+    /// Makes rows that have been written ahead the present and the past.
+    pub(crate) fn catch_up(&mut self, steps: usize) {
+        for _ in 0..steps {
+            self.head = self.after(1);
+            self.close();
+        }
+    }
+
+    #[inline]
+    fn after(&self, steps: usize) -> usize {
+        let row = self.head + steps;
+        if row < self.rows { row } else { row - self.rows }
     }
 
     /// How far back it can look, in steps.

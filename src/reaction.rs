@@ -104,6 +104,12 @@ impl Delays {
         &self.chosen
     }
 
+    /// Whether no delay changes by itself.
+    #[inline]
+    pub fn are_settled(&self) -> bool {
+        self.settled
+    }
+
     /// The delay in force of a driver.
     #[inline]
     pub fn of(&self, j: usize) -> usize {

@@ -36,6 +36,9 @@ use std::ops::Range;
 /// A reading that the odometer has always passed: look at once.
 const LOOK: f64 = f64::NEG_INFINITY;
 
+/// Fewer steps are not taken at once: finding out whether they can be costs more.
+const FEWEST_AT_ONCE: u64 = 8;
+
 /// Two vehicles have touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Collision {
@@ -96,6 +99,11 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     agenda: Vec<(u64, usize)>,
     width: Width,
     odometer: Odometer,
+    /// The largest maximum speed, m/s, and the length of the longest vehicle, m.
+    fastest: f64,
+    longest: f64,
+    /// Until this step vehicles are too close for several steps at once.
+    dense_until: u64,
     /// How far the fastest must have gone ahead of the slowest before two vehicles can touch, m: see
     /// [`Odometer::apart`].
     clear_until: f64,
@@ -141,6 +149,9 @@ impl<S: Sampler> Simulation<S> {
             agenda,
             width: Width::widest(),
             odometer: Odometer::default(),
+            fastest: 0.0,
+            longest: 0.0,
+            dense_until: 0,
             clear_until: LOOK,
             drivers,
             delays,
@@ -270,8 +281,52 @@ impl<S: Sampler> Simulation<S> {
     /// Steps until that step, or the end.
     pub fn run_to(&mut self, step: u64) {
         while self.step < step && !self.is_finished() {
-            self.step();
+            if !self.drive_on(step) {
+                self.step();
+            }
         }
+    }
+
+    /// As many steps at once as bring nothing but driving, up to that step, where equal drivers follow one another on one
+    /// lane; false if there are too few to be worth it.
+    fn drive_on(&mut self, step: u64) -> bool {
+        let delay = match self.delays.few() {
+            &[delay] if self.ring.is_in_order() && self.delays.are_settled() => delay,
+            _ => return false,
+        };
+        let due = self.agenda.last().map_or(u64::MAX, |&(due, _)| due.saturating_sub(1));
+        let last = step.min(self.last_step).min(due);
+        let possible = last.saturating_sub(self.step).min(delay as u64);
+        if possible < FEWEST_AT_ONCE || !self.braked.is_empty() || self.history_is_long {
+            return false;
+        }
+        // Nobody goes farther in a step than this.
+        let farthest = self.fastest * self.scenario.time_step;
+        let room =
+            |clear_until: f64, odometer: Odometer| ((clear_until - odometer.apart()) / farthest) as u64;
+        let mut steps = room(self.clear_until, self.odometer);
+        if steps < FEWEST_AT_ONCE {
+            if self.step < self.dense_until {
+                return false;
+            }
+            let least = self.following.least_headway(self.history.now(), self.ring.offsets());
+            self.clear_until = self.odometer.apart() + 0.999 * (least - self.longest);
+            steps = room(self.clear_until, self.odometer);
+            if steps < 2 * FEWEST_AT_ONCE {
+                self.dense_until = self.step + REFRESH;
+                return false;
+            }
+        }
+        let steps = steps.min(possible);
+        let (offset, dt) = (self.ring.offsets(), self.scenario.time_step);
+        if !self.following.drive_on(&mut self.history, delay, offset, dt, self.step, steps as usize) {
+            return false;
+        }
+        self.odometer.advance_at_most(steps as f64 * farthest);
+        self.step += steps;
+        self.events.clear();
+        self.events_step = self.step - 1;
+        true
     }
 
     /// One step; does nothing once finished.
@@ -648,6 +703,8 @@ impl<S: Sampler> Simulation<S> {
         for (step, driver) in self.frustration_step.iter_mut().zip(&self.drivers) {
             *step = driver.frustration_rate * dt;
         }
+        let largest = |of: fn(&Driver) -> f64| self.drivers.iter().map(of).fold(0.0, f64::max);
+        (self.fastest, self.longest) = (largest(|d| d.max_speed), largest(|d| d.vehicle_length));
         self.clear_until = LOOK;
     }
 }

@@ -27,6 +27,12 @@ impl Odometer {
         self.steps = self.steps.wrapping_add(1);
     }
 
+    /// So many metres that nobody has gone farther ahead of anybody.
+    #[inline]
+    pub(crate) fn advance_at_most(&mut self, apart: f64) {
+        self.apart += apart;
+    }
+
     /// How far the fastest of each step has gone ahead of the slowest: no two vehicles have come closer by more.
     #[inline]
     pub(crate) fn apart(&self) -> f64 {
