@@ -8,7 +8,7 @@
 //! **Accuracy.** Under 1 ulp over the whole range; a test holds it against a reference in twice the precision.
 //!
 //! **Outside.** [`exp`] gives 0 below −745.14, +∞ above 709.79, subnormal numbers between −745.14 and −708.4,
-//! NaN for NaN. Car following holds the argument to ±700 first, which is what its law needs:
+//! NaN for NaN. [`exp_within`] holds its argument to ±700 first, which is what the car-following law needs:
 //! e^700 and all above mean "stand still", e^−700 and all below mean "as fast as possible".
 
 use crate::vector::Real;
@@ -57,7 +57,13 @@ fn reduced<T: Real>(x: T) -> (T, T) {
 
 /// e^x for −700 ≤ x ≤ 700, of the nearer end outside; branch-free. NaN gives NaN.
 #[inline(always)]
-pub(crate) fn exp_within<T: Real>(x: T) -> T {
+pub fn exp_within(x: f64) -> f64 {
+    all_within(x)
+}
+
+/// [`exp_within`] of one number or of a chunk of them.
+#[inline(always)]
+pub(crate) fn all_within<T: Real>(x: T) -> T {
     let x = x.least(T::all(700.0)).most(T::all(-700.0));
     let (shifted, fraction) = reduced(x);
     // The low bits of `shifted` hold k.

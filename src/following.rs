@@ -7,7 +7,7 @@
 //! by how much more the leader has driven than oneself, as it was seen. From one step to the next the gap
 //! moves by a little, so w moves by a factor e^a with a small a = −(λ/V)·δgap: |a| ≤ λ·dt for equal drivers. Where
 //! |a| ≤ 2⁻¹⁰ the shortfall is multiplied by the Taylor polynomial of degree 4, where |a| ≤ 2⁻⁶ by that of degree 6;
-//! their remainders, a⁵/5! and a⁷/7!, are below 10⁻¹⁷ relative. Where a is larger (a nudge, a large λ·dt) and
+//! their remainders, a⁵/5! and a⁷/7!, are below 6·10⁻¹⁷ relative. Where a is larger (a nudge, a large λ·dt) and
 //! where the leader has changed, that vehicle's shortfall is evaluated in full. The choice is made vehicle by
 //! vehicle, so that it does not depend on the width of the vectors.
 //!
@@ -18,7 +18,7 @@
 //! (V·e^−700) and stays so through [`REFRESH`] steps of at most 2⁻⁶ each.
 
 use crate::driver::Driver;
-use crate::exp::exp_within;
+use crate::exp::{all_within, exp_within};
 use crate::history::{History, images};
 #[cfg(doc)]
 use crate::reaction::Delays;
@@ -134,7 +134,7 @@ fn respond(
     refresh: bool,
 ) -> Chunk {
     let a = law.rate * (gap - Chunk::load(old_gap));
-    if refresh || !(a * a).surely_within(TINY) {
+    if refresh || !(a * a).are_at_most(TINY) {
         let argument = law.rate * ((Chunk::load(offset) + gap) - law.min_headway);
         let mut next = *shortfall;
         respond_rarely(&a.to_array(), &argument.to_array(), &law.max_speed.to_array(), refresh, &mut next);
@@ -154,23 +154,18 @@ fn respond_rarely(
     refresh: bool,
     shortfall: &mut [f64; CHUNK],
 ) {
-    let full = Chunk::load(max_speed) * exp_within(Chunk::load(argument));
+    let in_full = || Chunk::load(max_speed) * all_within(Chunk::load(argument));
     if refresh {
-        return full.store(shortfall);
+        return in_full().store(shortfall);
     }
-    let (old, moves) = (Chunk::load(shortfall), Chunk::load(a));
-    let [little, much, full] = [moved_a_little(old, moves), moved(old, moves), full].map(Chunk::to_array);
-    for j in 0..CHUNK {
-        // False for NaN: a vehicle without a valid shortfall.
-        let within = |bound: f64| a[j] * a[j] <= bound;
-        shortfall[j] = if within(TINY) {
-            little[j]
-        } else if within(SMALL) {
-            much[j]
-        } else {
-            full[j]
-        };
+    let (old, a) = (Chunk::load(shortfall), Chunk::load(a));
+    let square = a * a;
+    let mut next = square.at_most(TINY).choose(moved_a_little(old, a), moved(old, a));
+    if !square.are_at_most(SMALL) {
+        // Not at most anything: NaN, a vehicle without a valid shortfall.
+        next = square.at_most(SMALL).choose(next, in_full());
     }
+    next.store(shortfall);
 }
 
 kernel! {

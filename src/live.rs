@@ -190,18 +190,19 @@ impl Live {
 
     /// At most so many steps. Returns how many were taken.
     pub fn step(&mut self, steps: u32) -> u32 {
-        for taken in 0..steps {
-            if self.simulation.is_finished() {
-                return taken;
+        let begin = self.simulation.step_index();
+        let end = begin + u64::from(steps);
+        while !self.simulation.is_finished() && self.simulation.step_index() < end {
+            // As far as there is nothing to look at.
+            let step = self.simulation.step_index();
+            let row = step + self.every - step % self.every;
+            let due = self.agenda.get(self.next).map_or(u64::MAX, |&due| due.max(step + 1));
+            self.simulation.run_to(end.min(row).min(due));
+            if self.simulation.step_index() > step {
+                self.observe();
             }
-            let before = self.simulation.step_index();
-            self.simulation.step();
-            if self.simulation.step_index() == before {
-                return taken;
-            }
-            self.observe();
         }
-        steps
+        (self.simulation.step_index() - begin) as u32
     }
 
     fn observe(&mut self) {

@@ -71,9 +71,9 @@ mod chunk {
         pub(crate) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
             Self(std::array::from_fn(|j| f(self.0[j], other.0[j])))
         }
-        /// Only if 0 ≤ x ≤ `bound` for all x, which are not negative; it may say no where some come near.
+        /// Whether all are at most `bound`; NaN is not.
         #[inline(always)]
-        pub(crate) fn surely_within(self, bound: f64) -> bool {
+        pub(crate) fn are_at_most(self, bound: f64) -> bool {
             let mut within = true;
             for x in self.0 {
                 within &= x <= bound;
@@ -93,6 +93,11 @@ mod chunk {
         #[inline(always)]
         pub(crate) fn where_below(self, other: Self, value: Self) -> Self {
             Self(std::array::from_fn(|j| if self.0[j] < other.0[j] { value.0[j] } else { 0.0 }))
+        }
+        /// A mask: all bits set where the number is at most `bound`, else none.
+        #[inline(always)]
+        pub(crate) fn at_most(self, bound: f64) -> Self {
+            Self(self.0.map(|x| f64::from_bits(if x <= bound { u64::MAX } else { 0 })))
         }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]
@@ -232,13 +237,12 @@ mod chunk {
             let (a, b) = (self.0, other.0);
             Self([f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])])
         }
-        /// Only if 0 ≤ x ≤ `bound` for all x, which are not negative; it may say no where some come near.
+        /// Whether all are at most `bound`; NaN is not.
         #[inline(always)]
-        pub(crate) fn surely_within(self, bound: f64) -> bool {
-            // A rounded sum is not smaller than any of its terms, and NaN where one is.
-            let [a, b, c, d] = self.0;
-            let sum = f64x2_add(f64x2_add(a, b), f64x2_add(c, d));
-            i64x2_all_true(f64x2_le(sum, f64x2_splat(bound)))
+        pub(crate) fn are_at_most(self, bound: f64) -> bool {
+            let bound = f64x2_splat(bound);
+            let [a, b, c, d] = self.0.map(|x| f64x2_le(x, bound));
+            i64x2_all_true(v128_and(v128_and(a, b), v128_and(c, d)))
         }
         /// A bit for each number, the first one lowest: whether it is at least the other one.
         #[inline(always)]
@@ -253,6 +257,11 @@ mod chunk {
             let (x, y, v) = (self.0, other.0, value.0);
             let one = |j: usize| v128_and(f64x2_lt(x[j], y[j]), v[j]);
             Self([one(0), one(1), one(2), one(3)])
+        }
+        /// A mask: all bits set where the number is at most `bound`, else none.
+        #[inline(always)]
+        pub(crate) fn at_most(self, bound: f64) -> Self {
+            self.zip(Self::splat(bound), |a, b| f64x2_le(a, b))
         }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]

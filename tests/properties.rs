@@ -205,6 +205,47 @@ fn all_events(seed: u64) -> Vec<Event> {
     events
 }
 
+proptest! {
+    #![proptest_config(config(300, 14))]
+    /// Many steps of equal drivers are taken at once where nothing else happens. Taken one by one, they are the same: with
+    /// actions in between, with pauses, up to the step of a collision.
+    #[test]
+    fn steps_at_once_are_the_same_steps(
+        mut scenario in scenarios(1..=1),
+        vehicles in prop_oneof![Just(None), (2..1500_usize).prop_map(Some)],
+        delay in prop_oneof![Just(None), (0.05..1.2).prop_map(Some)],
+        equal in prop::bool::weighted(0.8),
+        pauses in prop::collection::vec(0.0..1.0, 0..6),
+    ) {
+        if equal {
+            scenario.exceptions.clear();
+        }
+        if let Some(vehicles) = vehicles {
+            scenario.length *= vehicles as f64 / scenario.vehicles as f64;
+            scenario.vehicles = vehicles;
+            scenario.actions.truncate(2);
+        }
+        if let Some(delay) = delay {
+            scenario.driver.reaction_time = delay;
+            scenario.time_step = 0.01;
+            scenario.until = scenario.until.min(8.0);
+        }
+        prop_assume!(scenario.validate().is_ok());
+        let mut pauses: Vec<_> = pauses.iter().map(|share| (scenario.last_step() as f64 * share) as u64).collect();
+        pauses.push(scenario.last_step());
+        pauses.sort_unstable();
+        let (mut once, mut single) = (Simulation::new(&scenario).unwrap(), Simulation::new(&scenario).unwrap());
+        for pause in pauses {
+            once.run_to(pause);
+            while single.step_index() < pause && !single.is_finished() {
+                single.step();
+            }
+            prop_assert_eq!(bits(&once), bits(&single));
+            prop_assert_eq!(once.events(), single.events());
+        }
+    }
+}
+
 #[test]
 fn the_same_seed_gives_the_same_events_another_others() {
     let events: Vec<_> = (0..8).map(all_events).collect();
