@@ -19,7 +19,8 @@ mod cases {
 
     /// A scenario to be stepped; the file is read by the bench in the browser too.
     ///
-    /// 20 m of road a vehicle in each lane, steps of 0.01 s, a nudge: stable, never at rest. On one lane Δ = 0.5 s;
+    /// 20 m of road a vehicle in each lane, steps of 0.01 s, a nudge: stable, never at rest. On one lane Δ = 0.5 s, in
+    /// stop-and-go traffic 0.69 s, just unstable, from a random start and long after it;
     /// with lane changes no delay, as in the paper, and a tenth of the drivers keep the lanes in motion.
     #[derive(Deserialize)]
     pub(crate) struct Case {
