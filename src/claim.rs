@@ -296,12 +296,13 @@ pub fn to_text(claims: &[Claim]) -> String {
         }
     }
     let count = |v| claims.iter().filter(|c| c.verdict() == v).count();
+    let words = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
     let _ = writeln!(
         out,
-        "\n{} claims: {} agree, {} differ, {} not determined by the paper (“open” above)",
-        claims.len(),
-        count(Verdict::Agrees),
-        count(Verdict::Differs),
+        "\n{}: {}, {}, {} not determined by the paper (“open” above)",
+        words(claims.len(), "claim", "claims"),
+        words(count(Verdict::Agrees), "agrees", "agree"),
+        words(count(Verdict::Differs), "differs", "differ"),
         count(Verdict::NotDetermined)
     );
     out
@@ -393,6 +394,17 @@ mod tests {
         let far = claim(Expected::About(1.0, 0.1), Estimate::exact(3.0)).or("other", Estimate::exact(2.0));
         assert_eq!(far.verdict(), Verdict::Differs);
         assert!(far.method_in_words().contains("Readings tried: 2, of which 0"));
+    }
+
+    #[test]
+    fn the_summary_speaks_of_one_and_of_many() {
+        let of = |ours: &[f64]| {
+            let claims: Vec<_> =
+                ours.iter().map(|&v| claim(Expected::AtMost(1.0), Estimate::exact(v))).collect();
+            to_text(&claims).lines().last().unwrap_or_default().to_owned()
+        };
+        assert!(of(&[2.0]).starts_with("1 claim: 0 agree, 1 differs, 0 not determined"));
+        assert!(of(&[0.0, 2.0, 3.0]).starts_with("3 claims: 1 agrees, 2 differ, 0 not determined"));
     }
 
     #[test]

@@ -1,5 +1,5 @@
 //! `ringroad reproduce`, run as a person runs it.
-#![cfg(feature = "command")]
+#![cfg(all(feature = "command", not(target_arch = "wasm32")))]
 
 use serde_json::Value;
 use std::fs;
@@ -79,4 +79,30 @@ fn an_unknown_figure_is_refused_by_name() {
     for word in ["figure-7", "fundamental-diagram", "load-balance", "all"] {
         assert!(message.contains(word), "{message}");
     }
+}
+
+/// Every claim as it is computed stands in the document, no other does, and their number is told rightly.
+#[test]
+fn the_document_says_what_the_program_gives() {
+    let output = ringroad(&["reproduce", "all", "--markdown"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let table = String::from_utf8(output.stdout).unwrap();
+    let document = include_str!("../docs/reproduction.md");
+    let (_, from_claims) = document.split_once("\n## The claims\n").unwrap();
+    let (claims, _) = from_claims.split_once("\n## ").unwrap();
+    let written: Vec<_> = claims.lines().filter(|line| line.starts_with('|')).collect();
+    let given: Vec<_> = table.lines().collect();
+    for (written, given) in written.iter().zip(&given) {
+        assert_eq!(written, given);
+    }
+    assert_eq!(written.len(), given.len());
+    let count = |verdict| given.iter().filter(|row| row.split(" | ").nth(3) == Some(verdict)).count();
+    let sum = format!(
+        "{} claims: {} agree, {} differ, {} are not determined by the paper.",
+        given.len() - 2,
+        count("agrees"),
+        count("differs"),
+        count("not determined by the paper")
+    );
+    assert!(claims.contains(&sum), "{sum}");
 }

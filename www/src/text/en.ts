@@ -403,8 +403,11 @@ export const en = {
     columns: { claim: 'Claim', paper: 'Paper', ours: 'Ours', verdict: 'Verdict', method: 'How it was measured' },
     verdicts: { agrees: 'agrees', differs: 'differs', open: 'not determined by the paper' },
     symbols: { agrees: '✓', differs: '✗', open: '?' },
-    summary: (agree: number, differ: number, open: number): string =>
-      `${agree + differ + open} claims: ${agree} agree, ${differ} differ, ${open} not determined by the paper.`,
+    summary: (agree: number, differ: number, open: number): string => {
+      const words = (n: number, one: string, many: string) => `${n} ${n === 1 ? one : many}`
+      const all = words(agree + differ + open, 'claim', 'claims')
+      return `${all}: ${words(agree, 'agrees', 'agree')}, ${words(differ, 'differs', 'differ')}, ${open} not determined by the paper.`
+    },
     point: (panel: string, name: string, x: string, atX: string, y: string, atY: string): string =>
       `${panel}${name === '' ? '' : `, ${name}`} · ${x}: ${atX} · ${y}: ${atY}`,
     interval: (low: string, high: string): string => ` (${low} to ${high})`,
