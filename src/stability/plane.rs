@@ -142,7 +142,7 @@ impl std::str::FromStr for Sweep {
         let given = step.map(|step| step.trim().parse().map_err(|_| form())).transpose()?;
         if let Some(step) = given.filter(|step| parameter.whole && *step != f64::trunc(*step)) {
             let allowed = format!("a whole step: {} is a whole number", parameter.hyphenated());
-            return Err(Invalid::new("sweep step", step, allowed));
+            return Err(Invalid::new("step", step, allowed));
         }
         if from == to {
             return Ok(Self { parameter, values: vec![from] });
@@ -152,18 +152,16 @@ impl std::str::FromStr for Sweep {
         if !(0.0..MOST_VALUES).contains(&count) {
             let most = format!("at most {MOST_VALUES} values");
             return Err(match given {
-                Some(step) => Invalid::new(
-                    "sweep step",
-                    step,
-                    format!("a step that leads from {from} to {to} in {most}"),
-                ),
+                Some(step) => {
+                    Invalid::new("step", step, format!("a step that leads from {from} to {to} in {most}"))
+                }
                 None if count < 0.0 => Invalid::new(
-                    "sweep",
+                    "range",
                     quoted(range),
                     format!("{to}:{from}, or a step downwards: {from}:{to}:-1"),
                 ),
                 None => Invalid::new(
-                    "sweep",
+                    "range",
                     quoted(range),
                     format!("{most}, or a larger step: {from}:{to}:STEP"),
                 ),
@@ -321,12 +319,12 @@ mod tests {
             ("cars=1:2", "parameter: “cars” is not allowed; allowed: vehicles, "),
             ("vehicles=1", "PARAMETER=FROM:TO"),
             ("vehicles=0:5", "from 1 to"),
-            ("vehicles=2:5:0", "sweep step: 0 "),
-            ("vehicles=2:5:-1", "sweep step: -1 "),
+            ("vehicles=2:5:0", "step: 0 "),
+            ("vehicles=2:5:-1", "step: -1 "),
             ("vehicles=5:2", "“5:2” is not allowed; allowed: 2:5, or a step downwards: 5:2:-1"),
             ("vehicles=1:200000", "“1:200000” is not allowed; allowed: at most 100000 values"),
-            ("vehicles=2:5:0.5", "sweep step: 0.5 is not allowed; allowed: a whole step"),
-            ("vehicles=2:5:NaN", "sweep step: NaN "),
+            ("vehicles=2:5:0.5", "step: 0.5 is not allowed; allowed: a whole step"),
+            ("vehicles=2:5:NaN", "step: NaN "),
             ("reaction-time=0:1:x", "PARAMETER=FROM:TO:STEP"),
         ] {
             let message = bad.parse::<Sweep>().unwrap_err().to_string();
