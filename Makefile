@@ -46,9 +46,9 @@ help: ## this list
 
 run: build ## build the page and serve it here
 	@echo
-	echo "The page in one file: $(CURDIR)/dist/ringroad.html"
-	echo "The site, until Ctrl-C:"
-	cd www && exec vite preview --outDir ../dist --host '$(HOST)' --port '$(PORT)'
+	@echo "The page in one file: $(CURDIR)/dist/ringroad.html"
+	@echo "The site, until Ctrl-C:"
+	@cd www && exec vite preview --outDir ../dist --host '$(HOST)' --port '$(PORT)'
 
 build: dist/ringroad.html ## build dist/ (the site) and dist/ringroad.html (the page in one file)
 

@@ -138,32 +138,36 @@ impl fmt::Display for Effect {
     }
 }
 
-/// `NAME=VALUE` with a number.
-fn assignment(text: &str) -> Result<(&str, f64), Invalid> {
+/// `NAME=VALUE` with a number; a refusal names `what` it is.
+fn assignment<'a>(what: &'static str, text: &'a str) -> Result<(&'a str, f64), Invalid> {
     let (name, value) = text
         .split_once('=')
-        .ok_or_else(|| Invalid::new("effect", quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
+        .ok_or_else(|| Invalid::new(what, quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
     let name = name.trim();
     let number =
         value.trim().parse().map_err(|_| Invalid::new(name.to_owned(), quoted(value), "a number"))?;
     Ok((name, number))
 }
 
-fn driver_parameter(name: &str, others: &str) -> Result<&'static Parameter, Invalid> {
+/// What an [`Effect`] is called, and what an [`Exception`] sets.
+const EFFECT: &str = "effect";
+const OF_DRIVER: &str = "driver's parameter";
+
+fn driver_parameter(what: &'static str, name: &str, others: &str) -> Result<&'static Parameter, Invalid> {
     Parameter::named(name).filter(|p| p.is_of_driver()).ok_or_else(|| {
         let names: Vec<_> =
             PARAMETERS.iter().filter(|p| p.is_of_driver()).map(Parameter::hyphenated).collect();
-        Invalid::new("effect", quoted(name), format!("{}{others}", names.join(", ")))
+        Invalid::new(what, quoted(name), format!("{}{others}", names.join(", ")))
     })
 }
 
 impl FromStr for Effect {
     type Err = Invalid;
     fn from_str(text: &str) -> Result<Self, Invalid> {
-        match assignment(text)? {
+        match assignment(EFFECT, text)? {
             ("brake", seconds) => Ok(Self::Brake(seconds)),
             ("nudge", metres) => Ok(Self::Nudge(metres)),
-            (name, value) => driver_parameter(name, ", brake, nudge").map(|p| Self::Set(p, value)),
+            (name, value) => driver_parameter(EFFECT, name, ", brake, nudge").map(|p| Self::Set(p, value)),
         }
     }
 }
@@ -188,7 +192,7 @@ impl FromStr for Action {
         let (Some(at), Some(who), Some(effects)) = (parts.next(), parts.next(), parts.next()) else {
             return Err(form());
         };
-        let (name, at) = assignment(at).map_err(|_| form())?;
+        let (name, at) = assignment(EFFECT, at).map_err(|_| form())?;
         if name != "at" {
             return Err(form());
         }
@@ -214,16 +218,20 @@ impl FromStr for Exception {
         let (who, values) = text.split_once(':').ok_or_else(|| {
             Invalid::new("driver", quoted(text), "WHO:PARAMETER=VALUE, such as 12:sensitivity=2")
         })?;
-        let one = |text: &str| {
-            let (name, value) = assignment(text)?;
-            Ok((driver_parameter(name, "")?, value))
-        };
-        let values = values.split(',').map(one).collect::<Result<_, _>>();
         Ok(Self {
             who: who.parse().map_err(|e: Invalid| e.within(quoted(text)))?,
-            values: values.map_err(|e: Invalid| e.within(quoted(text)))?,
+            values: driver_values(values).map_err(|e| e.within(quoted(text)))?,
         })
     }
+}
+
+/// `PARAMETER=VALUE[,PARAMETER=VALUE …]` of a driver.
+pub(crate) fn driver_values(text: &str) -> Result<Vec<(&'static Parameter, f64)>, Invalid> {
+    let one = |text: &str| {
+        let (name, value) = assignment(OF_DRIVER, text)?;
+        Ok((driver_parameter(OF_DRIVER, name, "")?, value))
+    };
+    text.split(',').map(one).collect()
 }
 
 fn joined(effects: &[Effect]) -> String {
@@ -263,8 +271,14 @@ mod tests {
             let message = text.parse::<Action>().unwrap_err().to_string();
             assert!(message.contains(named), "{message}");
         }
-        for text in ["sensitivity=2", "12:brake=2", "x:sensitivity=1"] {
-            assert!(text.parse::<Exception>().is_err(), "{text}");
+        for (text, named) in [
+            ("sensitivity=2", "WHO:PARAMETER=VALUE"),
+            ("x:sensitivity=1", "“x”"),
+            ("12:brake=2", "driver's parameter: “brake”"),
+            ("12:sensitivity", "driver's parameter: “sensitivity”"),
+        ] {
+            let message = text.parse::<Exception>().unwrap_err().to_string();
+            assert!(message.contains(named) && !message.contains("effect"), "{message}");
         }
         assert!(Who::Vehicle(51).check(50).unwrap_err().to_string().contains("51"));
         assert!(Who::Vehicle(0).check(50).is_err() && Who::Range(7, 3).check(50).is_err());

@@ -6,10 +6,14 @@
 //! The perceived headway h is the offset of the leader, which stays as it is while the leader does, plus the *gap*:
 //! by how much more the leader has driven than oneself, as it was seen. From one step to the next the gap
 //! moves by a little, so w moves by a factor e^a with a small a = −(λ/V)·δgap: |a| ≤ λ·dt for equal drivers. Where
-//! |a| ≤ 2⁻¹⁰ the shortfall is multiplied by the Taylor polynomial of degree 4, where |a| ≤ 2⁻⁶ by that of degree 6;
-//! their remainders, a⁵/5! and a⁷/7!, are below 6·10⁻¹⁷ relative. Where a is larger (a nudge, a large λ·dt) and
-//! where the leader has changed, that vehicle's shortfall is evaluated in full. The choice is made vehicle by
-//! vehicle, so that it does not depend on the width of the vectors.
+//! |a| ≤ 2⁻¹⁰ the shortfall is multiplied by the Taylor polynomial of degree 4, where |a| ≤ 2⁻⁶ by that of degree 6.
+//! Their remainders, about a⁵/5! and a⁷/7!, are below 7.5·10⁻¹⁸ and 4.6·10⁻¹⁷ of e^a: less than half the distance from
+//! one number to the next. Where a is larger (a nudge, a large λ·dt) and where the leader or the driver has changed,
+//! that vehicle's shortfall is evaluated in full. The choice is made vehicle by vehicle, so that it does not depend on
+//! the width of the vectors.
+//!
+//! Equal drivers in order who only drive are taken on many steps at once, up to their delay, a block of vehicles after
+//! the other: it saves memory traffic, and every step computes the same bits as one by itself.
 //!
 //! **Accuracy.** One multiplication by a polynomial rounds like w·(1 + ε) with |ε| under 5·10⁻¹⁶, the
 //! rounding of a itself included; every [`REFRESH`] steps all shortfalls are evaluated in full. So w stays within

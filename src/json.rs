@@ -57,7 +57,7 @@ impl Object {
         match text.parse() {
             Ok(Json::Object(object)) => Ok(object),
             Ok(other) => Err(Invalid::new(what, other, "a JSON object")),
-            Err(e) => Err(Invalid::new(what, format!("JSON that breaks off ({e})"), "a JSON object")),
+            Err(e) => Err(Invalid::new(what, format!("broken JSON ({e})"), "a JSON object")),
         }
     }
 
@@ -151,8 +151,10 @@ impl Serialize for Json {
         match self {
             Self::Null => serializer.serialize_unit(),
             Self::Bool(value) => serializer.serialize_bool(*value),
-            // Whole numbers without ".0": shorter, and the same number to every reader.
-            Self::Number(x) if *x == x.trunc() && x.abs() < 9.1e15 => serializer.serialize_i64(*x as i64),
+            // Whole numbers without ".0": shorter, and the same number to every reader. Whole numbers have no −0.
+            Self::Number(x) if *x == x.trunc() && x.abs() < 9.1e15 && x.to_bits() != (-0.0_f64).to_bits() => {
+                serializer.serialize_i64(*x as i64)
+            }
             Self::Number(x) => serializer.serialize_f64(*x),
             Self::Text(text) => serializer.serialize_str(text),
             Self::List(list) => serializer.collect_seq(list),
@@ -408,8 +410,9 @@ mod tests {
         }
         for x in [0.1, -0.0, 1.0 / 3.0, f64::MAX, f64::MIN_POSITIVE, 123_456_789.25, 1e22, 4e-5] {
             let read = text(&Json::from(x)).parse::<Json>().unwrap().as_number().unwrap();
-            assert_eq!(read, x);
+            assert_eq!(read.to_bits(), x.to_bits(), "{x}");
         }
+        assert_eq!(text(&Json::from(0.0)), "0");
         assert_eq!(text(&[f64::NAN, 0.5]), "[null,0.5]");
     }
 

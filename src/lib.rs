@@ -27,7 +27,7 @@
 //! | [`ring`], `watch` | who is ahead, who passed, and who has to be looked at for that |
 //! | [`frustration`] | the rules of frustration, and when a lane change is attempted |
 //! | [`measurement`] | what to measure, plain data |
-//! | [`probe`] | one file a measurement |
+//! | [`probe`] | one file a measurement, and `spectrum`, which two of them share |
 //! | [`fit`] | straight lines and exponentials through points |
 //! | [`table`] | columns, units, CSV |
 //! | [`batch`] | grids and Monte Carlo over scenarios: plan, runs, summary |
@@ -36,6 +36,9 @@
 //! | [`live`], [`verdict`] | a run that somebody watches, and what theory says of it |
 //! | `web` | the façade for the page, on WebAssembly only |
 //! | `main.rs`, `command/` | the command, native only |
+//!
+//! Cargo features: `command` (by default) builds the command and brings `parallel`, batches and figures on all cores.
+//! `laboratory` and `figures` choose what a WebAssembly module has of `web`.
 
 pub mod action;
 pub mod batch;

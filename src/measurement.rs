@@ -326,11 +326,7 @@ impl Measurement {
             let setting = settings.iter().find(|s| s.option == option).ok_or_else(|| {
                 let names: Vec<_> = settings.iter().map(|s| format!("--{}", s.option)).collect();
                 let names = if names.is_empty() { "no setting".to_owned() } else { names.join(", ") };
-                Invalid::new(
-                    format!("--{option}"),
-                    quoted(text),
-                    format!("for the table {}: {names}", self.name()),
-                )
+                Invalid::new(format!("table {}", self.name()), format!("--{option}"), names)
             })?;
             object.insert(setting.name, setting.parse(text)?);
         }

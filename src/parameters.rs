@@ -192,6 +192,13 @@ pub(crate) fn quoted(text: &str) -> String {
     format!("“{text}”")
 }
 
+/// How a text begins, as a message shows it: of its first line at most 40 characters, none that a terminal obeys.
+pub(crate) fn opening(text: &str) -> String {
+    let line = text.lines().next().unwrap_or_default();
+    let start: String = line.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    quoted(&if start.len() < line.len() { start + "…" } else { start })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,7 +8,7 @@
 use crate::batch::Plan;
 use crate::error::Invalid;
 use crate::measurement::Measurement;
-use crate::parameters::quoted;
+use crate::parameters::opening;
 use crate::scenario::Scenario;
 use std::fmt::Write as _;
 
@@ -219,11 +219,21 @@ impl Provenance {
     }
 }
 
+/// The scenario in the text of a file, JSON or a table, and the version that wrote the table.
+pub fn scenario_of_file(text: &str) -> Result<(Scenario, Option<String>), Invalid> {
+    if text.starts_with('#') {
+        Provenance::from_csv(text).map(|made_by| (made_by.scenario, Some(made_by.version)))
+    } else if text.trim_start().starts_with('{') {
+        Scenario::from_json(text).map(|scenario| (scenario, None))
+    } else {
+        Err(Invalid::new("file", opening(text), "a scenario in JSON or a table of Ringroad; it is neither"))
+    }
+}
+
 /// The rest of the header line that begins with `prefix`.
 fn header_line<'a>(text: &'a str, prefix: &str) -> Result<&'a str, Invalid> {
     text.lines().take_while(|l| l.starts_with('#')).find_map(|l| l.strip_prefix(prefix)).ok_or_else(|| {
-        let start: String = text.lines().next().unwrap_or("").chars().take(40).collect();
-        Invalid::new("CSV header", quoted(&start), format!("a file of Ringroad, with a line “{prefix}…”"))
+        Invalid::new("CSV header", opening(text), format!("a file of Ringroad, with a line “{prefix}…”"))
     })
 }
 
@@ -288,6 +298,14 @@ mod tests {
         // Defaults that follow from the scenario are written out.
         assert_eq!(read.measurement, Measurement::Flow { every: 1.0, window: 5.0, at: Some(500.0) });
         assert_eq!(Provenance::version_of("# ringroad 9.8.7\nwhat nobody knows yet"), Ok("9.8.7"));
+        assert_eq!(scenario_of_file(&csv), Ok((scenario.clone(), Some(VERSION.to_owned()))));
+        assert_eq!(scenario_of_file(&format!(" {}", scenario.to_json())), Ok((scenario, None)));
+        for (text, opening) in [("hello\nyou", "“hello”"), ("", "“”"), ("\u{1b}[2J", "“ [2J”")] {
+            let message = scenario_of_file(text).unwrap_err().to_string();
+            assert!(message.contains(opening) && message.contains("neither"), "{message}");
+        }
+        let long = "é".repeat(50);
+        assert!(scenario_of_file(&long).unwrap_err().to_string().contains(&format!("“{}…”", "é".repeat(40))));
         for (text, named) in [
             ("", "“”"),
             ("time_s,vehicle", "time_s,vehicle"),

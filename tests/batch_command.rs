@@ -135,11 +135,21 @@ fn merged_shards_are_the_bytes_of_one_call() {
         assert!(twice.contains("overlap") && twice.contains(&files[1]), "{twice}");
         let table = folder.join("table.csv").display().to_string();
         fs::write(&table, &expected).unwrap();
-        assert!(refused(&with(&["--merge"], &[&table])).contains("finished runs"));
+        let refusal = refused(&with(&["--merge"], &[&table]));
+        assert!(refusal.contains("“# ringroad ") && refusal.contains("finished runs"), "{refusal}");
+        assert_eq!(refusal.lines().count(), 1, "{refusal}");
         // The plan of a table or a shard can be repeated.
         assert_eq!(written(&with(&["--plan", &table], &more[..more.len().min(1)])), expected);
         assert_eq!(written(&with(&["--plan", &files[1]], &more[..more.len().min(1)])), expected);
     }
+}
+
+#[test]
+fn a_late_action_is_told_of_unless_the_end_is_varied() {
+    let run = ["--until", "2", "--action", "at=3:1:brake=1"];
+    let told = |more: &[&str]| String::from_utf8(output(&with(&run, more)).stderr).unwrap();
+    assert_eq!(told(&["--runs", "2"]), "note: action at=3:1:brake=1 is after the end of the run at 2 s\n");
+    assert_eq!(told(&["--vary", "until=2,4"]), "");
 }
 
 #[test]

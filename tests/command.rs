@@ -287,12 +287,26 @@ fn a_scenario_comes_from_a_preset_json_standard_input_or_a_table() {
         ("c.json", r#"{"cars":5}"#, ["c.json", "cars", "vehicles"]),
         ("d.json", "{", ["d.json", "scenario", "JSON"]),
         ("e.csv", "# a comment\n1,2\n", ["e.csv", "CSV header", "a file of Ringroad"]),
+        ("f.txt", "hello\nworld", ["f.txt", "“hello” is not allowed", "JSON or a table of Ringroad"]),
     ] {
         fs::write(file(name), text).unwrap();
         let message = refusal(&["run", "--scenario", &file(name)]);
         assert!(words.iter().all(|w| message.contains(w)), "{message}");
     }
     assert!(refusal(&["run", "--scenario", &file("none.json")]).contains("none.json"));
+}
+
+#[test]
+fn an_action_after_the_end_is_told_of_and_no_other() {
+    let told = |at: &str| {
+        let action = format!("at={at}:1:brake=1");
+        let output = ringroad(&["run", "--until", "2", "--action", &action]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(output.stdout.starts_with(b"# ringroad"));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(told("2"), "");
+    assert_eq!(told("1000"), "note: action at=1000:1:brake=1 is after the end of the run at 2 s\n");
 }
 
 #[test]
@@ -304,6 +318,8 @@ fn bad_usage_is_refused_by_name() {
         (&["run", "--driver", "60:sensitivity=2"], &["60", "1 to 50"]),
         (&["run", "--driver", "sensitivity=2"], &["--driver", "WHO:PARAMETER=VALUE"]),
         (&["run", "--action", "at=1:60:brake=2"], &["60", "1 to 50"]),
+        (&["run", "--driver", "1:foo=2"], &["--driver", "driver's parameter: “foo”", "allowed: max-speed, "]),
+        (&["run", "--vehicle", "3"], &["table trajectories: --vehicle is not allowed; allowed: --every"]),
         (&["run", "--action", "at=1:1:jump=2"], &["--action", "“jump”", "brake"]),
         (&["run", "--table", "speed"], &["table", "“speed”", "speed-map"]),
         (&["run", "--every", "0"], &["every", "0", "0.001"]),
@@ -400,8 +416,15 @@ fn a_replay_agrees_or_says_where_it_differs() {
     assert_eq!(code, Some(1));
     assert!(words.contains("differs from line 601 on") && words.contains(number), "{words}");
     let without_last = csv.trim_end().rsplit_once('\n').unwrap().0.to_owned() + "\n";
-    assert_eq!(replay("short.csv", &without_last).0, Some(1));
-    assert_eq!(replay("long.csv", &format!("{csv}1,2,3\n")).0, Some(1));
+    let (code, words) = replay("short.csv", &without_last);
+    assert_eq!(code, Some(1));
+    assert!(words.contains("on: the file has ended, “") && words.contains("” in the simulation."), "{words}");
+    let (code, words) = replay("long.csv", &format!("{csv}1,2,3\n"));
+    assert_eq!(code, Some(1));
+    assert!(words.contains("on: “1,2,3” in the file, the simulation has ended."), "{words}");
+    let (code, words) = replay("unended.csv", csv.trim_end());
+    assert_eq!(code, Some(1));
+    assert!(words.contains("on: how the line “"), "{words}");
     assert_eq!(replay("units.csv", &csv.replace("headway, from centre", "headway, from front")).0, Some(1));
 
     let version = format!("# ringroad {}", env!("CARGO_PKG_VERSION"));

@@ -116,9 +116,27 @@ fn a_sweep_is_a_table() {
 }
 
 #[test]
+fn the_jam_is_marked_among_the_stable_numbers() {
+    let numbers = |arguments: &[&str]| {
+        let words = answer(arguments);
+        let name = "stable numbers of vehicles a lane";
+        words.lines().find_map(|l| l.strip_prefix(name)).unwrap().trim().to_owned()
+    };
+    assert_eq!(numbers(&["--reaction-time", "0.75"]), "1 … 41, 134 … 199 (jam)");
+    assert_eq!(numbers(&[]), "1 … 133, 134 … 199 (jam)", "without delay everything is stable");
+    assert_eq!(json(&[])["stable_vehicles"], serde_json::json!([[1, 199]]));
+}
+
+#[test]
 fn bad_input_is_refused_by_name() {
     for (arguments, words) in [
-        (&["--sweep", "cars=2:133"][..], "sweep"),
+        (&["--sweep", "cars=2:133"][..], "--sweep: parameter: “cars” is not allowed; allowed: vehicles, "),
+        (&["--sweep", "vehicles=133:2"], "“133:2” is not allowed; allowed: 2:133, "),
+        (&["--sweep", "vehicles=2:5:0.5"], "step: 0.5 is not allowed; allowed: a whole step"),
+        (
+            &["--calm-with", "foo=2"],
+            "calm-with: driver's parameter: “foo” is not allowed; allowed: max-speed, ",
+        ),
         (&["--sweep", "vehicles=2:250"], "vehicles=200"),
         (&["--roots", "0"], "--roots"),
         (&["--roots", "many"], "many"),

@@ -8,7 +8,7 @@
 use super::plan::Plan;
 use super::run::Run;
 use crate::error::Invalid;
-use crate::parameters::quoted;
+use crate::parameters::{opening, quoted};
 use crate::table::{Column, VERSION, Values};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -165,10 +165,8 @@ pub struct Record {
 impl Record {
     /// Reads a text. It may break off anywhere after the header; a line that makes no sense elsewhere is refused.
     pub fn read(text: &str) -> Result<Self, Invalid> {
-        let start: String = text.chars().take(40).collect();
-        let refuse = || {
-            Invalid::new("batch", quoted(&start), "finished runs that ringroad batch wrote, with their plan")
-        };
+        let allowed = "finished runs that ringroad batch wrote, with their plan";
+        let refuse = || Invalid::new("batch", opening(text), allowed);
         let (first, _) = text.split_once('\n').ok_or_else(refuse)?;
         if !first.starts_with("{\"ringroad\":") {
             return Err(refuse());
@@ -185,8 +183,7 @@ impl Record {
             let Header { plan, shard, .. } = &record.header;
             let run = parse(line, &columns).filter(|r| r.number < plan.runs() && shard.holds(r.number));
             let run = run.ok_or_else(|| {
-                let start: String = line.trim_end().chars().take(40).collect();
-                Invalid::new(format!("line {}", k + 2), quoted(&start), "a finished run of the plan")
+                Invalid::new(format!("line {}", k + 2), opening(line), "a finished run of the plan")
             })?;
             record.runs.insert(run.number, run);
         }

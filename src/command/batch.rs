@@ -3,7 +3,7 @@
 //! With `--out FILE`, every finished run is appended to `FILE.part` at once; the same call again continues there. The
 //! file goes when FILE is whole.
 
-use super::options::{read, scenario_options, unchecked_scenario};
+use super::options::{read, scenario_options, tell_of_late_actions, unchecked_scenario};
 use super::output::{self, Output};
 use super::run::{measurement, measurement_options};
 use super::{Failure, Subcommand, progress};
@@ -170,7 +170,13 @@ fn plan(matches: &ArgMatches) -> Result<Plan, Failure> {
     let vary = matches.get_many::<String>("vary").into_iter().flatten();
     let vary: Vec<Vary> = vary.map(|text| text.parse()).collect::<Result<_, _>>()?;
     let runs = matches.get_one("runs").copied().unwrap_or(1);
-    Ok(Plan::new(unchecked_scenario(matches)?, vary, runs, measurement(matches, table)?)?)
+    let scenario = unchecked_scenario(matches)?;
+    let plan = Plan::new(scenario.clone(), vary, runs, measurement(matches, table)?)?;
+    // Where ends or steps are varied, what is late in one run may not be in another.
+    if !plan.vary().iter().any(|v| ["until", "time_step"].contains(&v.parameter().name)) {
+        tell_of_late_actions(&scenario);
+    }
+    Ok(plan)
 }
 
 fn csv(plan: &Plan, runs: &BTreeMap<u64, Run>, summary: bool) -> Result<String, Invalid> {

@@ -7,7 +7,7 @@ use ringroad::error::Invalid;
 use ringroad::parameters::PARAMETERS;
 use ringroad::preset::{preset, presets};
 use ringroad::scenario::Scenario;
-use ringroad::table::Provenance;
+use ringroad::table::scenario_of_file;
 use std::fs;
 use std::io::{self, Read};
 
@@ -100,6 +100,15 @@ pub(crate) fn unchecked_scenario(matches: &ArgMatches) -> Result<Scenario, Failu
     Ok(scenario)
 }
 
+/// Says on the standard error stream which actions never happen, the run being over before.
+pub(crate) fn tell_of_late_actions(scenario: &Scenario) {
+    for action in &scenario.actions {
+        if scenario.steps(action.at) > scenario.last_step() {
+            eprintln!("note: action {action} is after the end of the run at {} s", scenario.until);
+        }
+    }
+}
+
 /// The text of a file, `-` being the standard input.
 pub(crate) fn read(file: &str) -> Result<String, Failure> {
     let mut text = String::new();
@@ -112,11 +121,5 @@ pub(crate) fn read(file: &str) -> Result<String, Failure> {
 }
 
 fn read_scenario(file: &str) -> Result<Scenario, Failure> {
-    let text = read(file)?;
-    let scenario = if text.starts_with('#') {
-        Provenance::from_csv(&text).map(|p| p.scenario)
-    } else {
-        Scenario::from_json(&text)
-    };
-    Ok(scenario.map_err(|e| e.within(file))?)
+    Ok(scenario_of_file(&read(file)?).map_err(|e| e.within(file))?.0)
 }

@@ -49,21 +49,17 @@ fn first_difference(given: &str, again: &str) -> String {
     let mut given = given.split_inclusive('\n');
     let mut again = again.split_inclusive('\n');
     for line in 1.. {
-        let shown = |text: Option<&str>| match text {
-            Some(text) => format!("“{}”", text.trim_end_matches('\n').chars().take(200).collect::<String>()),
-            None => "the end of the file".to_owned(),
-        };
+        let plain = |text: &str| text.trim_end_matches(['\r', '\n']).chars().take(200).collect::<String>();
         let (a, b) = (given.next(), again.next());
-        if a != b {
-            return format!(
-                "differs from line {line} on: {} in the file, {} in the simulation.",
-                shown(a),
-                shown(b)
-            );
-        }
-        if a.is_none() {
-            break;
-        }
+        let how = match (a, b) {
+            (Some(a), Some(b)) if a == b => continue,
+            (Some(a), Some(b)) if plain(a) == plain(b) => format!("how the line “{}” ends", plain(a)),
+            (Some(a), Some(b)) => format!("“{}” in the file, “{}” in the simulation", plain(a), plain(b)),
+            (None, Some(b)) => format!("the file has ended, “{}” in the simulation", plain(b)),
+            (Some(a), None) => format!("“{}” in the file, the simulation has ended", plain(a)),
+            (None, None) => break,
+        };
+        return format!("differs from line {line} on: {how}.");
     }
     "differs.".to_owned()
 }

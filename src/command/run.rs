@@ -1,6 +1,6 @@
 //! `ringroad run`: one scenario, one measurement, as CSV; or a summary as JSON.
 
-use super::options::{scenario, scenario_options};
+use super::options::{scenario, scenario_options, tell_of_late_actions};
 use super::output::{self, Output};
 use super::summary::{Watched, summary};
 use super::{Failure, Subcommand, progress};
@@ -101,6 +101,7 @@ pub(crate) fn tabulate(scenario: &Scenario, measurement: &Measurement) -> Result
 fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let scenario = scenario(matches)?;
     let output = Output::new(matches)?;
+    tell_of_late_actions(&scenario);
     if matches.get_flag("json") {
         let mut simulation = Simulation::new(&scenario)?;
         let watched = Watched::new(&simulation);

@@ -9,7 +9,7 @@ use ringroad::scenario::Scenario;
 use ringroad::stability::calm::{Calming, calm_with, parse_changes};
 use ringroad::stability::equal::Time;
 use ringroad::stability::factors::Factor;
-use ringroad::stability::inverse::{most_vehicles, stable_sensitivities, stable_vehicles};
+use ringroad::stability::inverse::{first_jammed, most_vehicles, stable_sensitivities, stable_vehicles};
 use ringroad::stability::plane::{Sweep, sweep};
 use ringroad::stability::report::{ModeRoot, Report, leading_factors, leading_roots};
 use serde::Serialize;
@@ -128,6 +128,21 @@ fn per_second(x: f64) -> String {
     if x != 0.0 && x.abs() < 1e-4 { format!("{x:+.3e} 1/s") } else { format!("{x:+.6} 1/s") }
 }
 
+/// Intervals of numbers of vehicles; where nobody moves they are marked.
+fn numbers(scenario: &Scenario, intervals: &[(usize, usize)]) -> Vec<String> {
+    let mut parts = Vec::new();
+    for &(a, b) in intervals {
+        let jam = first_jammed(&scenario.driver, scenario.length, b).max(a);
+        if a < jam {
+            parts.push(format!("{a} … {}", jam - 1));
+        }
+        if jam <= b {
+            parts.push(format!("{jam} … {b} (jam)"));
+        }
+    }
+    parts
+}
+
 fn in_words(scenario: &Scenario, answer: &Answer) -> String {
     let report = &answer.report;
     let mut text = report.verdict() + "\n\n";
@@ -176,8 +191,7 @@ fn in_words(scenario: &Scenario, answer: &Answer) -> String {
         line(&mut text, "critical scale of reaction times", &scale);
     }
     let joined = |parts: Vec<String>| if parts.is_empty() { "none".to_owned() } else { parts.join(", ") };
-    let vehicles = answer.stable_vehicles.iter().map(|(a, b)| format!("{a} … {b}")).collect();
-    line(&mut text, "stable numbers of vehicles a lane", &joined(vehicles));
+    line(&mut text, "stable numbers of vehicles a lane", &joined(numbers(scenario, &answer.stable_vehicles)));
     let sensitivities = answer.stable_sensitivities_per_s.iter().map(|(a, b)| format!("{a:.4} … {b:.4}"));
     line(&mut text, "stable sensitivities", &format!("{} 1/s", joined(sensitivities.collect())));
     if let Some(calming) = &answer.calming {

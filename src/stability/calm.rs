@@ -3,7 +3,7 @@
 use super::equal::Time;
 use super::report::{Report, lanes_of};
 use super::ring::Ring;
-use crate::action::Exception;
+use crate::action::driver_values;
 use crate::driver::Driver;
 use crate::error::Invalid;
 use crate::parameters::Parameter;
@@ -88,11 +88,11 @@ pub fn calm_with(scenario: &Scenario, changes: &[(&'static Parameter, f64)]) -> 
 
 /// Reads `reaction-time=0` or `reaction-time=0,sensitivity=2`.
 pub fn parse_changes(text: &str) -> Result<Vec<(&'static Parameter, f64)>, Invalid> {
-    let exception: Exception = format!("all:{text}").parse().map_err(|e: Invalid| e.within("calm-with"))?;
-    for &(parameter, value) in &exception.values {
+    let changes = driver_values(text).map_err(|e| e.within("calm-with"))?;
+    for &(parameter, value) in &changes {
         parameter.check(value).map_err(|e| e.within("calm-with"))?;
     }
-    Ok(exception.values)
+    Ok(changes)
 }
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ pub fn stable_vehicles(
     let stable =
         |n: usize| delay < EqualRing { vehicles: n, slope: driver.slope(length / n as f64) }.critical(time);
     // The first number that is jammed, and the last before it that is stable; one vehicle always is.
-    let jammed = partition(1, most + 1, |n| length / n as f64 > driver.min_headway);
+    let jammed = first_jammed(driver, length, most);
     let first_unstable = partition(1, jammed, stable);
     let mut intervals = Vec::new();
     if first_unstable > 1 {
@@ -55,6 +55,12 @@ fn partition(low: usize, high: usize, holds: impl Fn(usize) -> bool) -> usize {
         }
     }
     low
+}
+
+/// The smallest number of such vehicles on a lane of `length` metres of whom none moves in equilibrium; `most` + 1 where
+/// that is a larger one.
+pub fn first_jammed(driver: &Driver, length: f64, most: usize) -> usize {
+    partition(1, most + 1, |n| length / n as f64 > driver.min_headway)
 }
 
 /// The sensitivities λ (1/s), within the allowed range, with which N such vehicles are stable at the delay `delay`

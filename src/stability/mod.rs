@@ -12,6 +12,7 @@
 //! | [`inverse`] | which numbers of vehicles, which sensitivities are stable |
 //! | [`plane`] | critical reaction times and growth rates over the number of vehicles; sweeps |
 //! | [`report`] | the verdict |
+//! | `complex` | functions of complex numbers, the same bits everywhere |
 //!
 //! Two systems are spoken of everywhere ([`equal::Time`]): the differential equation, and the difference equation that a
 //! simulation with its steps solves. The verdict is about the second.

@@ -6,7 +6,7 @@ use super::equal::{EqualRing, Time};
 use super::report::Report;
 use crate::driver::Driver;
 use crate::error::Invalid;
-use crate::parameters::Parameter;
+use crate::parameters::{PARAMETERS, Parameter, quoted};
 use crate::scenario::Scenario;
 use crate::table::{Column, Table};
 
@@ -123,12 +123,15 @@ impl std::str::FromStr for Sweep {
         let form = || {
             Invalid::new(
                 "sweep",
-                crate::parameters::quoted(text),
+                quoted(text),
                 "PARAMETER=FROM:TO or PARAMETER=FROM:TO:STEP, such as vehicles=2:133",
             )
         };
         let (name, range) = text.split_once('=').ok_or_else(form)?;
-        let parameter = Parameter::named(name.trim()).ok_or_else(form)?;
+        let parameter = Parameter::named(name.trim()).ok_or_else(|| {
+            let names: Vec<_> = PARAMETERS.iter().map(Parameter::hyphenated).collect();
+            Invalid::new("parameter", quoted(name), names.join(", "))
+        })?;
         let parts: Vec<_> = range.split(':').collect();
         let (from, to, step) = match parts[..] {
             [from, to] => (from, to, None),
@@ -136,18 +139,33 @@ impl std::str::FromStr for Sweep {
             _ => return Err(form()),
         };
         let (from, to) = (parameter.parse(from)?, parameter.parse(to)?);
-        let step = match step {
-            Some(step) => step.trim().parse().map_err(|_| form())?,
-            None if parameter.whole => 1.0,
-            None => (to - from) / 100.0,
-        };
+        let given = step.map(|step| step.trim().parse().map_err(|_| form())).transpose()?;
+        if let Some(step) = given.filter(|step| parameter.whole && *step != f64::trunc(*step)) {
+            let allowed = format!("a whole step: {} is a whole number", parameter.hyphenated());
+            return Err(Invalid::new("step", step, allowed));
+        }
         if from == to {
             return Ok(Self { parameter, values: vec![from] });
         }
+        let step = given.unwrap_or(if parameter.whole { 1.0 } else { (to - from) / 100.0 });
         let count = ((to - from) / step + 1e-9).floor();
-        if !(0.0..MOST_VALUES).contains(&count) || (parameter.whole && step != f64::trunc(step)) {
-            let allowed = format!("a step that leads from {from} to {to} in at most {MOST_VALUES} values");
-            return Err(Invalid::new("sweep step", step, allowed));
+        if !(0.0..MOST_VALUES).contains(&count) {
+            let most = format!("at most {MOST_VALUES} values");
+            return Err(match given {
+                Some(step) => {
+                    Invalid::new("step", step, format!("a step that leads from {from} to {to} in {most}"))
+                }
+                None if count < 0.0 => Invalid::new(
+                    "range",
+                    quoted(range),
+                    format!("{to}:{from}, or a step downwards: {from}:{to}:-1"),
+                ),
+                None => Invalid::new(
+                    "range",
+                    quoted(range),
+                    format!("{most}, or a larger step: {from}:{to}:STEP"),
+                ),
+            });
         }
         // Steps such as 0.05 add up to 0.15000000000000002; what is meant is the nearest short decimal.
         let value = |k: usize| ((from + k as f64 * step) * 1e9).round() / 1e9;
@@ -295,17 +313,22 @@ mod tests {
         assert_eq!(values("vehicles=2:5"), [2.0, 3.0, 4.0, 5.0]);
         assert_eq!(values("reaction-time=0:0.2:0.05"), [0.0, 0.05, 0.1, 0.15, 0.2]);
         assert_eq!(values("sensitivity=1:2").len(), 101);
-        for bad in [
-            "vehicles",
-            "cars=1:2",
-            "vehicles=1",
-            "vehicles=0:5",
-            "vehicles=2:5:0",
-            "vehicles=5:2",
-            "vehicles=2:5:0.5",
-            "reaction-time=0:1:x",
+        assert_eq!(values("vehicles=5:2:-1"), [5.0, 4.0, 3.0, 2.0]);
+        for (bad, named) in [
+            ("vehicles", "PARAMETER=FROM:TO"),
+            ("cars=1:2", "parameter: “cars” is not allowed; allowed: vehicles, "),
+            ("vehicles=1", "PARAMETER=FROM:TO"),
+            ("vehicles=0:5", "from 1 to"),
+            ("vehicles=2:5:0", "step: 0 "),
+            ("vehicles=2:5:-1", "step: -1 "),
+            ("vehicles=5:2", "“5:2” is not allowed; allowed: 2:5, or a step downwards: 5:2:-1"),
+            ("vehicles=1:200000", "“1:200000” is not allowed; allowed: at most 100000 values"),
+            ("vehicles=2:5:0.5", "step: 0.5 is not allowed; allowed: a whole step"),
+            ("vehicles=2:5:NaN", "step: NaN "),
+            ("reaction-time=0:1:x", "PARAMETER=FROM:TO:STEP"),
         ] {
-            assert!(bad.parse::<Sweep>().is_err(), "{bad}");
+            let message = bad.parse::<Sweep>().unwrap_err().to_string();
+            assert!(message.contains(named), "{bad}: {message}");
         }
         assert!(
             sweep(&Scenario::default(), &"vehicles=190:210".parse().unwrap())

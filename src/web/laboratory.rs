@@ -14,7 +14,7 @@ use crate::preset;
 use crate::probe::Probe;
 use crate::scenario::Scenario;
 use crate::simulation::Simulation;
-use crate::table::{Provenance, VERSION};
+use crate::table::{VERSION, scenario_of_file};
 use crate::verdict::Verdict;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen::{Clamped, JsError};
@@ -81,20 +81,14 @@ impl Lab {
 
     /// Opens the text of a file: a scenario as JSON, or a table that the program wrote.
     pub fn open_file(&mut self, text: &str) -> Result<String, JsError> {
-        let scenario = if text.starts_with('#') {
-            let made_by = Provenance::from_csv(text).map_err(refusal)?;
-            self.open(&made_by.scenario)?;
-            let other = made_by.version != VERSION;
-            let message = format!(
-                "The file was written by version {}; this is {VERSION}, and runs are promised to repeat within a version only.",
-                made_by.version
-            );
-            return Ok(json::text(&other.then_some(message).as_slice()));
-        } else {
-            Scenario::from_json(text).map_err(refusal)?
-        };
+        let (scenario, version) = scenario_of_file(text).map_err(refusal)?;
         self.open(&scenario)?;
-        Ok("[]".into())
+        let message = version.filter(|version| version != VERSION).map(|version| {
+            format!(
+                "The file was written by version {version}; this is {VERSION}, and runs are promised to repeat within a version only."
+            )
+        });
+        Ok(json::text(&message.as_slice()))
     }
 
     /// Opens a preset; its end is open.
