@@ -2,6 +2,7 @@
 import { Cancelled, type Client } from './client/client'
 import { Pace } from './pace'
 import type { Answer, Ask, Frame, Legends, Name, Opened, Snapshot, Start, View } from './shared/protocol'
+import { text } from './text'
 
 /** Columns since the start of the run, at most as many as the map shows. */
 export interface Series {
@@ -114,8 +115,12 @@ export class Session {
   // --- what is done to it
 
   /** Does something now, such as `7:brake=3`. */
-  act(text: string): Promise<boolean> {
-    return this.#change('act', { text })
+  async act(action: string): Promise<boolean> {
+    if (this.frame?.collision) {
+      this.#emit('trouble', [text.trouble.over])
+      return false
+    }
+    return this.#change('act', { text: action })
   }
   /** Sets a parameter: a driver's from now on, any other by starting again. */
   set(name: string, value: string): Promise<boolean> {
