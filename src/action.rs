@@ -178,6 +178,20 @@ impl fmt::Display for Action {
     }
 }
 
+impl Action {
+    /// `WHO:EFFECT[,EFFECT …]`, at a time in s.
+    pub fn at(at: f64, text: &str) -> Result<Self, Invalid> {
+        let form = || Invalid::new("action", quoted(text), "WHO:EFFECT, such as 7:brake=3");
+        let (who, effects) = text.split_once(':').filter(|(who, _)| !who.contains('=')).ok_or_else(form)?;
+        Self::of(at, who, effects).map_err(|e| e.within(quoted(text)))
+    }
+
+    fn of(at: f64, who: &str, effects: &str) -> Result<Self, Invalid> {
+        let effects = effects.split(',').map(str::parse).collect::<Result<_, _>>()?;
+        Ok(Self { at, who: who.parse()?, effects })
+    }
+}
+
 impl FromStr for Action {
     type Err = Invalid;
     fn from_str(text: &str) -> Result<Self, Invalid> {
@@ -196,12 +210,7 @@ impl FromStr for Action {
         if name != "at" {
             return Err(form());
         }
-        let effects = effects.split(',').map(str::parse).collect::<Result<_, _>>();
-        Ok(Self {
-            at,
-            who: who.parse().map_err(|e: Invalid| e.within(quoted(text)))?,
-            effects: effects.map_err(|e: Invalid| e.within(quoted(text)))?,
-        })
+        Self::of(at, who, effects).map_err(|e| e.within(quoted(text)))
     }
 }
 
@@ -256,6 +265,17 @@ mod tests {
             assert_eq!(text.parse::<Exception>().unwrap().to_string(), text);
         }
         assert_eq!("at=1:2:reaction_time=1".parse::<Action>().unwrap().to_string(), "at=1:2:reaction-time=1");
+    }
+
+    #[test]
+    fn an_action_without_its_time_is_refused_in_its_own_words() {
+        assert_eq!(Action::at(1.5, "7:brake=3,nudge=1").unwrap().to_string(), "at=1.5:7:brake=3,nudge=1");
+        for text in ["brake=3", "7", "at=3:7:brake=3", ""] {
+            let message = Action::at(0.0, text).unwrap_err().to_string();
+            assert!(message.contains("WHO:EFFECT") && !message.contains("SECONDS"), "{message}");
+        }
+        let message = Action::at(0.0, "7:sleep=3").unwrap_err().to_string();
+        assert!(message.contains("“7:sleep=3”") && message.contains("“sleep”"), "{message}");
     }
 
     #[test]

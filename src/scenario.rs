@@ -118,6 +118,22 @@ impl Scenario {
         (seconds / self.time_step).round() as u64
     }
 
+    /// The time of a step, s, with no more decimals than bring it to a thousandth of a step: i·dt itself is often
+    /// 18.330000000000002. It is the same number of [`Self::steps`].
+    pub(crate) fn time_of(&self, step: u64) -> f64 {
+        let time = step as f64 * self.time_step;
+        let mut scale = 1.0;
+        // The smallest step, 0.001 s, needs six decimals.
+        for _ in 0..=6 {
+            let short = (time * scale).round() / scale;
+            if (short - time).abs() <= 1e-3 * self.time_step {
+                return short;
+            }
+            scale *= 10.0;
+        }
+        time
+    }
+
     /// Number of steps of the whole run.
     pub fn last_step(&self) -> u64 {
         self.steps(self.until)
@@ -419,6 +435,21 @@ mod tests {
         assert_eq!((scenario.vehicles, scenario.length), (20, 1000.0));
         assert_eq!(Scenario::from_json(&scenario.to_json()).unwrap(), scenario);
         assert_eq!(serde_json::to_string(&scenario).unwrap(), scenario.to_json());
+    }
+
+    #[test]
+    fn the_time_of_a_step_is_short_and_gives_the_step_back() {
+        for time_step in [0.001, 0.005, 0.01, 0.015, 0.025, 0.1, 0.3, 1.0 / 3.0, 0.5] {
+            let scenario = Scenario { time_step, ..Scenario::default() };
+            for step in (0..5000).chain([123_456, 999_999, 9_999_999]) {
+                let time = scenario.time_of(step);
+                assert_eq!(scenario.steps(time), step, "{time}");
+                assert!((time - step as f64 * time_step).abs() <= 1e-3 * time_step, "{time}");
+                assert!(time.to_string().split_once('.').is_none_or(|(_, d)| d.len() <= 6), "{time}");
+            }
+        }
+        let at = |time_step, step| Scenario { time_step, ..Scenario::default() }.time_of(step);
+        assert_eq!([at(0.01, 1833), at(0.015, 1), at(0.3, 3), at(0.1, 30)], [18.33, 0.015, 0.9, 3.0]);
     }
 
     #[test]

@@ -599,10 +599,10 @@ impl<S: Sampler> Simulation<S> {
     /// replay gives the same bits. A refused action changes nothing; after a collision every action is refused, since
     /// a replay would make it before.
     pub fn act(&mut self, mut action: Action) -> Result<(), Invalid> {
+        action.at = self.scenario.time_of(self.step);
         if self.collision.is_some() {
             return Err(Invalid::new("action", quoted(&action.to_string()), "none after a collision"));
         }
-        action.at = self.time();
         self.scenario.check_action(&action)?;
         let index = self.scenario.actions.len();
         let members = self.scenario.members(action.who, Stream::Action(index));

@@ -127,8 +127,7 @@ impl Lab {
 
     /// Does something now, `WHO:EFFECT` in the grammar of actions: `7:brake=3`.
     pub fn act(&mut self, text: &str) -> Result<(), JsError> {
-        let action: Action = format!("at=0:{text}").parse().map_err(refusal)?;
-        self.live.act(action).map_err(refusal)
+        self.live.act(Action::at(0.0, text).map_err(refusal)?).map_err(refusal)
     }
 
     /// Sets a parameter by name: a driver's from now on, any other by starting again.
