@@ -39,6 +39,9 @@ const LOOK: f64 = f64::NEG_INFINITY;
 /// Fewer steps are not taken at once: finding out whether they can be costs more.
 const FEWEST_AT_ONCE: u64 = 8;
 
+/// More vehicles are not driven on: where memory is the limit, rows are best read one after the other.
+const MOST_AT_ONCE: usize = 4096;
+
 /// Two vehicles have touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Collision {
@@ -297,7 +300,8 @@ impl<S: Sampler> Simulation<S> {
         let due = self.agenda.last().map_or(u64::MAX, |&(due, _)| due.saturating_sub(1));
         let last = step.min(self.last_step).min(due);
         let possible = last.saturating_sub(self.step).min(delay as u64);
-        if possible < FEWEST_AT_ONCE || !self.braked.is_empty() || self.history_is_long {
+        let few = self.drivers.len() <= MOST_AT_ONCE;
+        if !few || possible < FEWEST_AT_ONCE || !self.braked.is_empty() || self.history_is_long {
             return false;
         }
         // Nobody goes farther in a step than this.
