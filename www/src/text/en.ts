@@ -47,7 +47,6 @@ export const en = {
 
   trouble: {
     title: 'That did not work',
-    over: 'The run ended in a collision: go back first.',
     dismiss: 'Dismiss',
   },
 
@@ -87,7 +86,7 @@ export const en = {
     large: 'large waves, beyond linear theory',
     crash: (t: number, a: number, b: number): string => `Crash at t = ${unit(exactly(t, 2), 's')}: vehicle ${a} ran into vehicle ${b}.`,
     crashAdvice: 'Go back with the time line, lower the reaction time, or restart.',
-    end: (t: number): string => `the run ends here, at t = ${unit(fixed(t, 2), 's')}`,
+    end: (t: number): string => `The run ends here, at t = ${unit(fixed(t, 2), 's')}.`,
     goOn: 'Go on',
   },
 
@@ -360,8 +359,6 @@ export const en = {
     predicted: 'theory',
     measured: 'measured',
     waiting: (t: number): string => `Measuring from t = ${unit(fixed(t, 1), 's')} on …`,
-    changing: 'Lane changes go on: nothing to measure yet.',
-    nothing: 'Nothing is measured yet.',
     quiet: 'No wave to measure: nudge a car.',
     linear: (from: number, bound: number | null): string =>
       `Linear since t = ${unit(fixed(from, 1), 's')}${bound === null ? '' : `, within ±${unit(short(bound), '1/s')}`}.`,
