@@ -47,11 +47,11 @@ function compare(run, plain) {
 
 /** One case of benches/cases.json, in ns per vehicle-update; the baseline where there is one. */
 export function step({ warm_up, scenario }) {
-  const { vehicles, lanes, exceptions, driver } = scenario
+  const { vehicles, lanes, exceptions, driver, start } = scenario
   const core = new Run(JSON.stringify(scenario))
   core.step(warm_up)
   const runs = [{ updates: vehicles, run: steps => void core.step(steps) }]
-  if (lanes === 1 && !exceptions) {
+  if (lanes === 1 && !exceptions && start === 'uniform') {
     const plain = new Plain(vehicles, Math.round(driver.reaction_time / 0.01))
     plain.step(warm_up)
     compare(core, plain)
