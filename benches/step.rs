@@ -1,21 +1,21 @@
-//! Cost of a step, in time per vehicle-update (criterion's "elements" are vehicle-updates).
+//! Cost of a step, in time per vehicle-update: an iteration of criterion's is one update of one vehicle.
 //!
 //! `cargo bench --bench step`; beside the program's own cases a plain scalar Euler step with libm's exponential, so
-//! that ratios hold on any machine.
+//! that ratios hold on any machine, and runs side by side in one vector, to be held against one run after the other.
 
 #[cfg(target_arch = "wasm32")]
 fn main() {}
 
 #[cfg(not(target_arch = "wasm32"))]
 mod cases {
-    use criterion::{BenchmarkId, Criterion, Throughput};
+    use criterion::{Bencher, BenchmarkId, Criterion};
     use ringroad::scenario::Scenario;
     use ringroad::simulation::Simulation;
     use ringroad::vector::Width;
     use serde::de::Error;
     use serde::{Deserialize, Deserializer};
     use std::hint::black_box;
-    use std::time::Duration;
+    use std::time::{Duration, Instant};
 
     /// A scenario to be stepped; the file is read by the bench in the browser too.
     ///
@@ -73,6 +73,68 @@ mod cases {
         }
     }
 
+    /// So many runs of equal drivers side by side, vehicle j of all of them in one array: the step of the core in its
+    /// common case, without what makes it right in the others.
+    pub(crate) struct SideBySide<const RUNS: usize> {
+        rows: Vec<Vec<[f64; RUNS]>>,
+        head: usize,
+        gap: Vec<[f64; RUNS]>,
+        shortfall: Vec<[f64; RUNS]>,
+        speed: Vec<[f64; RUNS]>,
+    }
+
+    impl<const RUNS: usize> SideBySide<RUNS> {
+        pub(crate) fn new(vehicles: usize, delay: usize) -> Self {
+            let shortfall = 40.0 * libm::exp(-(20.0 - 7.5) / 40.0);
+            let all = |value: f64| vec![[value; RUNS]; vehicles];
+            let (mut rows, mut gap) = (vec![all(0.0); delay + 1], all(0.0));
+            // Little enough for the polynomial.
+            for row in &mut rows {
+                row[0] = [1e-3; RUNS];
+            }
+            (gap[0], gap[vehicles - 1]) = ([-1e-3; RUNS], [1e-3; RUNS]);
+            Self { rows, head: 0, gap, shortfall: all(shortfall), speed: all(40.0 - shortfall) }
+        }
+
+        pub(crate) fn step(&mut self) {
+            let n = self.gap.len();
+            let next = (self.head + 1) % self.rows.len();
+            let mut row = std::mem::take(&mut self.rows[next]);
+            let now = &self.rows[self.head];
+            let (first, mut own, mut little) = (row[0], row[0], true);
+            for j in 0..n {
+                let lead = if j + 1 == n { first } else { row[j + 1] };
+                let (gap, shortfall, speed) = (&mut self.gap[j], &mut self.shortfall[j], &mut self.speed[j]);
+                for k in 0..RUNS {
+                    row[j][k] = now[j][k] + speed[k] * 0.01;
+                    let seen = lead[k] - own[k];
+                    let a = -(1.0 / 40.0) * (seen - gap[k]);
+                    let a2 = a * a;
+                    little &= a2 <= 1.0 / 1_048_576.0;
+                    let high = (0.5 + a * (1.0 / 6.0)) + a2 * (1.0 / 24.0);
+                    shortfall[k] *= (1.0 + a) + high * a2;
+                    gap[k] = seen;
+                    let v = 40.0 - shortfall[k];
+                    speed[k] = if v > 0.0 { v } else { 0.0 };
+                }
+                own = lead;
+            }
+            assert!(little);
+            self.rows[next] = row;
+            self.head = next;
+        }
+    }
+
+    /// Times as many whole steps of so many updates as hold the iterations asked for.
+    fn time(b: &mut Bencher<'_>, updates: u64, mut run: impl FnMut(u64)) {
+        b.iter_custom(|iterations| {
+            let steps = iterations.div_ceil(updates);
+            let start = Instant::now();
+            run(steps);
+            start.elapsed().mul_f64(iterations as f64 / (steps * updates) as f64)
+        });
+    }
+
     pub(crate) fn all(c: &mut Criterion) {
         let mut group = c.benchmark_group("step");
         group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
@@ -83,8 +145,9 @@ mod cases {
                 let mut simulation = Simulation::new(scenario).unwrap();
                 simulation.set_width(width);
                 simulation.run_to(*warm_up);
-                group.throughput(Throughput::Elements(n as u64));
-                group.bench_function(BenchmarkId::new(&name, n), |b| b.iter(|| simulation.step()));
+                group.bench_function(BenchmarkId::new(&name, n), |b| {
+                    time(b, n as u64, |steps| simulation.run_to(simulation.step_index() + steps));
+                });
                 assert!(
                     simulation.collision().is_none(),
                     "{name} N = {n}: a bench must not end in a collision"
@@ -93,28 +156,39 @@ mod cases {
         }
         for n in [50, 1000, 100_000] {
             let mut plain = Plain::new(n, 50);
-            group.throughput(Throughput::Elements(n as u64));
-            group.bench_function(BenchmarkId::new("plain scalar with libm", n), |b| b.iter(|| plain.step()));
+            group.bench_function(BenchmarkId::new("plain scalar with libm", n), |b| {
+                time(b, n as u64, |steps| (0..steps).for_each(|_| plain.step()));
+            });
         }
         group.finish();
         let mut group = c.benchmark_group("runs");
         group.sample_size(10);
         let (runs, steps) = (1000_u64, 200_u64);
         let small = &cases[0].scenario;
-        group.throughput(Throughput::Elements(50 * runs * steps));
         group.bench_function("1000 runs of N = 50, 200 steps each", |b| {
-            b.iter(|| {
+            time(b, 50 * runs * steps, |batches| {
                 use rayon::prelude::*;
-                let total: f64 = (0..runs)
-                    .into_par_iter()
-                    .map(|seed| {
-                        let mut simulation = Simulation::new(&Scenario { seed, ..small.clone() }).unwrap();
-                        simulation.run_to(steps);
-                        simulation.speed(0)
-                    })
-                    .sum();
-                black_box(total)
+                for _ in 0..batches {
+                    let total: f64 = (0..runs)
+                        .into_par_iter()
+                        .map(|seed| {
+                            let mut simulation =
+                                Simulation::new(&Scenario { seed, ..small.clone() }).unwrap();
+                            simulation.run_to(steps);
+                            simulation.speed(0)
+                        })
+                        .sum();
+                    black_box(total);
+                }
             });
+        });
+        let mut two = SideBySide::<2>::new(50, 50);
+        group.bench_function("2 runs of N = 50 side by side, 128 bits", |b| {
+            time(b, 100, |steps| (0..steps).for_each(|_| two.step()));
+        });
+        let mut eight = SideBySide::<8>::new(50, 50);
+        group.bench_function("8 runs of N = 50 side by side, 128 bits", |b| {
+            time(b, 400, |steps| (0..steps).for_each(|_| eight.step()));
         });
         group.finish();
     }

@@ -90,21 +90,45 @@ struct Laws {
     min_headway: Vec<f64>,
 }
 
-/// A new shortfall from the old one, where a² ≤ [`TINY`].
-#[inline(always)]
-fn moved_a_little<T: Real>(shortfall: T, a: T) -> T {
-    let c = T::all;
-    let a2 = a * a;
-    let high = (c(1.0 / 2.0) + a * c(1.0 / 6.0)) + a2 * c(1.0 / 24.0);
-    shortfall * ((c(1.0) + a) + high * a2)
+/// The numbers that most steps need, ready in registers.
+#[derive(Clone, Copy)]
+struct Constants<T> {
+    zero: T,
+    one: T,
+    half: T,
+    sixth: T,
+    twenty_fourth: T,
+    tiny: T,
+}
+
+impl<T: Real> Constants<T> {
+    /// Numbers that the compiler cannot foresee: JavaScript engines make a constant anew wherever it is used, in a loop, too.
+    #[inline(always)]
+    fn new() -> Self {
+        let kept = |value: f64| T::all(std::hint::black_box(value));
+        Self {
+            zero: kept(0.0),
+            one: kept(1.0),
+            half: kept(1.0 / 2.0),
+            sixth: kept(1.0 / 6.0),
+            twenty_fourth: kept(1.0 / 24.0),
+            tiny: kept(TINY),
+        }
+    }
+
+    /// A new shortfall from the old one, where `a2` = a² ≤ [`TINY`].
+    #[inline(always)]
+    fn moved_a_little(&self, shortfall: T, a: T, a2: T) -> T {
+        let high = (self.half + a * self.sixth) + a2 * self.twenty_fourth;
+        shortfall * ((self.one + a) + high * a2)
+    }
 }
 
 /// A new shortfall from the old one, where a² ≤ [`SMALL`].
 #[inline(always)]
-fn moved<T: Real>(shortfall: T, a: T) -> T {
+fn moved<T: Real>(shortfall: T, a: T, a2: T) -> T {
     // Taylor's polynomial, Estrin's scheme: short chains, so that a vector unit stays busy.
     let c = T::all;
-    let a2 = a * a;
     let low = c(1.0) + a;
     let middle = c(1.0 / 2.0) + a * c(1.0 / 6.0);
     let high = (c(1.0 / 24.0) + a * c(1.0 / 120.0)) + a2 * c(1.0 / 720.0);
@@ -127,28 +151,69 @@ impl ChunkLaw {
     }
 }
 
-/// The new shortfalls of one chunk of vehicles.
-#[inline(always)]
-fn respond(
-    gap: Chunk,
-    old_gap: &[f64; CHUNK],
-    shortfall: &[f64; CHUNK],
-    offset: &[f64; CHUNK],
-    law: ChunkLaw,
-    refresh: bool,
-) -> Chunk {
-    let a = law.rate * (gap - Chunk::load(old_gap));
-    if refresh || !(a * a).are_at_most(TINY) {
-        let argument = law.rate * ((Chunk::load(offset) + gap) - law.min_headway);
-        let mut next = *shortfall;
-        respond_rarely(&a.to_array(), &argument.to_array(), &law.max_speed.to_array(), refresh, &mut next);
-        return Chunk::load(&next);
+impl Laws {
+    /// That of a chunk.
+    #[inline(always)]
+    fn at(&self, k: usize) -> ChunkLaw {
+        let at = |numbers: &[f64]| Chunk::load(&chunks(numbers)[k]);
+        ChunkLaw { max_speed: at(&self.max_speed), rate: at(&self.rate), min_headway: at(&self.min_headway) }
     }
-    moved_a_little(Chunk::load(shortfall), a)
 }
 
-/// The same where not all have moved by a little, from −(λ/V)(h − d) as the exponential's `argument`. (Through memory:
-/// the rare case must not take registers from the common one.)
+/// A [`State`] chunk by chunk, and what is needed to respond.
+struct Drivers<'a> {
+    gap: &'a mut [[f64; CHUNK]],
+    shortfall: &'a mut [[f64; CHUNK]],
+    speed: &'a mut [[f64; CHUNK]],
+    offset: &'a [[f64; CHUNK]],
+    constants: Constants<Chunk>,
+}
+
+impl<'a> Drivers<'a> {
+    #[inline(always)]
+    fn new(state: &'a mut State, offset: &'a [f64]) -> Self {
+        let speed = chunks_mut(&mut state.speed);
+        let count = speed.len();
+        Self {
+            gap: &mut chunks_mut(&mut state.gap)[..count],
+            shortfall: &mut chunks_mut(&mut state.shortfall)[..count],
+            speed,
+            offset: &chunks(offset)[..count],
+            constants: Constants::new(),
+        }
+    }
+
+    /// Speeds of chunk `k`, for gaps that are seen now.
+    #[inline(always)]
+    fn respond(&mut self, k: usize, gap: Chunk, law: ChunkLaw, refresh: bool) {
+        let shortfall = self.shortfall(k, gap, law, refresh);
+        gap.store(&mut self.gap[k]);
+        shortfall.store(&mut self.shortfall[k]);
+        self.constants.zero.most(law.max_speed - shortfall).store(&mut self.speed[k]);
+    }
+
+    #[inline(always)]
+    fn shortfall(&self, k: usize, gap: Chunk, law: ChunkLaw, refresh: bool) -> Chunk {
+        let old = Chunk::load(&self.shortfall[k]);
+        let a = law.rate * (gap - Chunk::load(&self.gap[k]));
+        let a2 = a * a;
+        if !refresh {
+            if a2.are_at_most(self.constants.tiny) {
+                return self.constants.moved_a_little(old, a, a2);
+            }
+            if a2.are_at_most(Chunk::splat(SMALL)) {
+                return a2.at_most(TINY).choose(self.constants.moved_a_little(old, a, a2), moved(old, a, a2));
+            }
+        }
+        let argument = law.rate * ((Chunk::load(&self.offset[k]) + gap) - law.min_headway);
+        let mut next = self.shortfall[k];
+        respond_rarely(&a.to_array(), &argument.to_array(), &law.max_speed.to_array(), refresh, &mut next);
+        Chunk::load(&next)
+    }
+}
+
+/// New shortfalls where not all have moved by a little, from −(λ/V)(h − d) as the exponential's `argument`. (Through
+/// memory: the rare case must not take registers from the common one.)
 #[cold]
 #[inline(never)]
 fn respond_rarely(
@@ -158,17 +223,16 @@ fn respond_rarely(
     refresh: bool,
     shortfall: &mut [f64; CHUNK],
 ) {
-    let in_full = || Chunk::load(max_speed) * all_within(Chunk::load(argument));
-    if refresh {
-        return in_full().store(shortfall);
-    }
+    let in_full = Chunk::load(max_speed) * all_within(Chunk::load(argument));
     let (old, a) = (Chunk::load(shortfall), Chunk::load(a));
-    let square = a * a;
-    let mut next = square.at_most(TINY).choose(moved_a_little(old, a), moved(old, a));
-    if !square.are_at_most(SMALL) {
+    let a2 = a * a;
+    let next = if refresh {
+        in_full
+    } else {
         // Not at most anything: NaN, a vehicle without a valid shortfall.
-        next = square.at_most(SMALL).choose(next, in_full());
-    }
+        let next = a2.at_most(SMALL).choose(moved(old, a, a2), in_full);
+        a2.at_most(TINY).choose(Constants::new().moved_a_little(old, a, a2), next)
+    };
     next.store(shortfall);
 }
 
@@ -177,27 +241,19 @@ kernel! {
     /// `seen`, which is not `new`, then speeds. `extremes`: see [`drive`].
     fn advance_alike(
         old: &[f64], seen: &[f64], offset: &[f64], law: Law, dt: f64, refresh: bool,
-        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64], new: &mut [f64], extremes: &mut (f64, f64),
+        state: &mut State, new: &mut [f64], extremes: &mut (f64, f64),
     ) {
-        let count = speed.len() / CHUNK;
+        let mut drivers = Drivers::new(state, offset);
+        let count = drivers.speed.len();
         let (old, new) = (&chunks(old)[..count], &mut chunks_mut(new)[..count]);
         let (seen, ahead) = (&chunks(seen)[..count], &chunks(&seen[1..])[..count]);
-        let offset = &chunks(offset)[..count];
-        let gap = &mut chunks_mut(gap)[..count];
-        let shortfall = &mut chunks_mut(shortfall)[..count];
-        let speed = &mut chunks_mut(speed)[..count];
-        let law = ChunkLaw::common(law);
-        let (dt, still) = (Chunk::splat(dt), Chunk::splat(0.0));
-        let mut range = Extremes::of(Chunk::load(&speed[0]));
+        let (law, dt) = (ChunkLaw::common(law), Chunk::splat(dt));
+        let mut range = Extremes::of(Chunk::load(&drivers.speed[0]));
         for k in 0..count {
-            let v = Chunk::load(&speed[k]);
+            let v = Chunk::load(&drivers.speed[k]);
             range.take(v);
             (Chunk::load(&old[k]) + v * dt).store(&mut new[k]);
-            let now = Chunk::load(&ahead[k]) - Chunk::load(&seen[k]);
-            let next = respond(now, &gap[k], &shortfall[k], &offset[k], law, refresh);
-            now.store(&mut gap[k]);
-            next.store(&mut shortfall[k]);
-            still.most(law.max_speed - next).store(&mut speed[k]);
+            drivers.respond(k, Chunk::load(&ahead[k]) - Chunk::load(&seen[k]), law, refresh);
         }
         *extremes = range.reduced();
     }
@@ -207,77 +263,56 @@ kernel! {
     /// The same where drivers have laws of their own and one of a few delays: `seen` has a row for each delay, `chosen`
     /// says who sees which; see [`Delays::few`].
     fn advance_mixed(
-        old: &[f64], seen: &[&[f64]], chosen: &[Vec<f64>], offset: &[f64], laws: &Laws, dt: f64, refresh: bool,
-        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64], new: &mut [f64], extremes: &mut (f64, f64),
+        old: &[f64], scene: Scene<'_>, laws: &Laws, dt: f64, refresh: bool,
+        state: &mut State, new: &mut [f64], extremes: &mut (f64, f64),
     ) {
-        let count = speed.len() / CHUNK;
+        let Scene { offset, seen, chosen } = scene;
+        let mut drivers = Drivers::new(state, offset);
+        let count = drivers.speed.len();
         let (old, new) = (&chunks(old)[..count], &mut chunks_mut(new)[..count]);
-        let offset = &chunks(offset)[..count];
-        let gap = &mut chunks_mut(gap)[..count];
-        let shortfall = &mut chunks_mut(shortfall)[..count];
-        let speed = &mut chunks_mut(speed)[..count];
-        let max_speed = &chunks(&laws.max_speed)[..count];
-        let rate = &chunks(&laws.rate)[..count];
-        let min_headway = &chunks(&laws.min_headway)[..count];
-        let (dt, still) = (Chunk::splat(dt), Chunk::splat(0.0));
+        let dt = Chunk::splat(dt);
         let difference = |row: &[f64], k: usize| {
             Chunk::load(&chunks(&row[1..])[k]) - Chunk::load(&chunks(row)[k])
         };
-        let mut range = Extremes::of(Chunk::load(&speed[0]));
+        let mut range = Extremes::of(Chunk::load(&drivers.speed[0]));
         for k in 0..count {
-            let v = Chunk::load(&speed[k]);
+            let v = Chunk::load(&drivers.speed[k]);
             range.take(v);
             (Chunk::load(&old[k]) + v * dt).store(&mut new[k]);
-            let law = ChunkLaw {
-                max_speed: Chunk::load(&max_speed[k]),
-                rate: Chunk::load(&rate[k]),
-                min_headway: Chunk::load(&min_headway[k]),
-            };
-            let mut now = difference(seen[0], k);
+            let mut gap = difference(seen[0], k);
             for (row, mask) in seen[1..].iter().zip(chosen) {
-                now = Chunk::load(&chunks(mask)[k]).choose(difference(row, k), now);
+                gap = Chunk::load(&chunks(mask)[k]).choose(difference(row, k), gap);
             }
-            let next = respond(now, &gap[k], &shortfall[k], &offset[k], law, refresh);
-            now.store(&mut gap[k]);
-            next.store(&mut shortfall[k]);
-            still.most(law.max_speed - next).store(&mut speed[k]);
+            drivers.respond(k, gap, laws.at(k), refresh);
         }
         *extremes = range.reduced();
     }
 }
 
 /// Chunks that are driven on together: what is kept of them stays near the processor.
-const BLOCK: usize = 64;
+const BLOCK: usize = 512 / CHUNK;
 
 kernel! {
     /// As many steps of [`advance_alike`] with one delay, block by block: within the delay nobody sees what is
     /// done meanwhile.
     fn drive_on(
-        history: &mut History, delay: usize, first: u64, steps: usize, offset: &[f64], law: Law, dt: f64, still: f64,
-        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64],
+        history: &mut History, delay: usize, first: u64, steps: usize, offset: &[f64], law: Law, dt: f64,
+        state: &mut State,
     ) {
-        let (law, dt, still) = (ChunkLaw::common(law), Chunk::splat(dt), Chunk::splat(still));
-        let count = speed.len() / CHUNK;
+        let mut drivers = Drivers::new(state, offset);
+        let count = drivers.speed.len();
+        let (law, dt) = (ChunkLaw::common(law), Chunk::splat(dt));
         for begin in (0..count).step_by(BLOCK) {
             let end = count.min(begin + BLOCK);
-            let offset = &chunks(offset)[begin..end];
-            let gap = &mut chunks_mut(gap)[begin..end];
-            let shortfall = &mut chunks_mut(shortfall)[begin..end];
-            let speed = &mut chunks_mut(speed)[begin..end];
             for step in 1..=steps {
                 let refresh = (first + step as u64).is_multiple_of(REFRESH);
                 let (new, past) = history.ahead(step);
                 let seen = past.seen(delay);
-                let (old, new) = (&chunks(past.seen(1))[begin..end], &mut chunks_mut(new)[begin..end]);
-                let (seen, ahead) = (&chunks(seen)[begin..end], &chunks(&seen[1..])[begin..end]);
-                for k in 0..end - begin {
-                    let v = Chunk::load(&speed[k]);
-                    (Chunk::load(&old[k]) + v * dt).store(&mut new[k]);
-                    let now = Chunk::load(&ahead[k]) - Chunk::load(&seen[k]);
-                    let next = respond(now, &gap[k], &shortfall[k], &offset[k], law, refresh);
-                    now.store(&mut gap[k]);
-                    next.store(&mut shortfall[k]);
-                    still.most(law.max_speed - next).store(&mut speed[k]);
+                let (old, new) = (&chunks(past.seen(1))[..end], &mut chunks_mut(new)[..end]);
+                let (seen, ahead) = (&chunks(seen)[..end], &chunks(&seen[1..])[..end]);
+                for k in begin..end {
+                    (Chunk::load(&old[k]) + Chunk::load(&drivers.speed[k]) * dt).store(&mut new[k]);
+                    drivers.respond(k, Chunk::load(&ahead[k]) - Chunk::load(&seen[k]), law, refresh);
                 }
             }
         }
@@ -317,31 +352,16 @@ kernel! {
 kernel! {
     /// Speeds for the gaps to these leaders in the row `seen`; without leaders `seen` holds the gaps.
     fn respond_all(
-        seen: &[f64], leaders: Option<&[u32]>, offset: &[f64], laws: &Laws, refresh: bool,
-        gap: &mut [f64], shortfall: &mut [f64], speed: &mut [f64],
+        seen: &[f64], leaders: Option<&[u32]>, offset: &[f64], laws: &Laws, refresh: bool, state: &mut State,
     ) {
-        let count = speed.len() / CHUNK;
-        let (own, offset) = (&chunks(seen)[..count], &chunks(offset)[..count]);
+        let mut drivers = Drivers::new(state, offset);
+        let count = drivers.speed.len();
+        let own = &chunks(seen)[..count];
         let leaders = leaders.map(|leaders| &leaders.as_chunks::<CHUNK>().0[..count]);
-        let gap = &mut chunks_mut(gap)[..count];
-        let shortfall = &mut chunks_mut(shortfall)[..count];
-        let speed = &mut chunks_mut(speed)[..count];
-        let max_speed = &chunks(&laws.max_speed)[..count];
-        let rate = &chunks(&laws.rate)[..count];
-        let min_headway = &chunks(&laws.min_headway)[..count];
-        let still = Chunk::splat(0.0);
         for k in 0..count {
-            let law = ChunkLaw {
-                max_speed: Chunk::load(&max_speed[k]),
-                rate: Chunk::load(&rate[k]),
-                min_headway: Chunk::load(&min_headway[k]),
-            };
             let own = Chunk::load(&own[k]);
-            let now = leaders.map_or(own, |leaders| Chunk::gather(seen, &leaders[k]) - own);
-            let next = respond(now, &gap[k], &shortfall[k], &offset[k], law, refresh);
-            now.store(&mut gap[k]);
-            next.store(&mut shortfall[k]);
-            still.most(law.max_speed - next).store(&mut speed[k]);
+            let gap = leaders.map_or(own, |leaders| Chunk::gather(seen, &leaders[k]) - own);
+            drivers.respond(k, gap, laws.at(k), refresh);
         }
     }
 }
@@ -427,42 +447,13 @@ impl Following {
         dt: f64,
         refresh: bool,
     ) -> (f64, f64) {
-        let Scene { offset, seen, chosen } = scene;
         let mut extremes = (0.0, 0.0);
-        let (width, State { gap, shortfall, speed }) = (self.width, &mut self.state);
-        let extremes_of = &mut extremes;
-        match (self.common, seen) {
+        let (width, state, range) = (self.width, &mut self.state, &mut extremes);
+        match (self.common, scene.seen) {
             (Some(law), [seen]) => {
-                advance_alike(
-                    width,
-                    old,
-                    seen,
-                    offset,
-                    law,
-                    dt,
-                    refresh,
-                    gap,
-                    shortfall,
-                    speed,
-                    new,
-                    extremes_of,
-                );
+                advance_alike(width, old, seen, scene.offset, law, dt, refresh, state, new, range);
             }
-            _ => advance_mixed(
-                width,
-                old,
-                seen,
-                chosen,
-                offset,
-                &self.laws,
-                dt,
-                refresh,
-                gap,
-                shortfall,
-                speed,
-                new,
-                extremes_of,
-            ),
+            _ => advance_mixed(width, old, scene, &self.laws, dt, refresh, state, new, range),
         }
         (extremes.0 * dt, extremes.1 * dt)
     }
@@ -480,10 +471,7 @@ impl Following {
     ) -> bool {
         let Some(law) = self.common else { return false };
         debug_assert!(steps <= delay, "{steps} steps within a delay of {delay}");
-        // Not written as 0.0 in the kernel: the maximum with a constant 0 takes an instruction more.
-        let still = std::hint::black_box(0.0);
-        let State { gap, shortfall, speed } = &mut self.state;
-        drive_on(self.width, history, delay, first, steps, offset, law, dt, still, gap, shortfall, speed);
+        drive_on(self.width, history, delay, first, steps, offset, law, dt, &mut self.state);
         history.catch_up(steps);
         true
     }
@@ -505,14 +493,12 @@ impl Following {
     /// New speeds of drivers who all see the displacements `seen` (m, padded), with leaders at `offset`; all shortfalls
     /// in full where `refresh` says so.
     pub fn respond(&mut self, seen: &[f64], leaders: &[u32], offset: &[f64], refresh: bool) {
-        let State { gap, shortfall, speed } = &mut self.state;
-        respond_all(self.width, seen, Some(leaders), offset, &self.laws, refresh, gap, shortfall, speed);
+        respond_all(self.width, seen, Some(leaders), offset, &self.laws, refresh, &mut self.state);
     }
 
     /// The same for gaps (m, padded) that each driver has seen at another time.
     pub fn respond_to_gaps(&mut self, gaps: &[f64], offset: &[f64], refresh: bool) {
-        let State { gap, shortfall, speed } = &mut self.state;
-        respond_all(self.width, gaps, None, offset, &self.laws, refresh, gap, shortfall, speed);
+        respond_all(self.width, gaps, None, offset, &self.laws, refresh, &mut self.state);
     }
 
     /// The same for one vehicle that has another leader.
@@ -581,8 +567,11 @@ mod tests {
             let a = f64::from(k) * 1e-4;
             let error = |moved: f64, a: f64| (moved / exp_within(a) - 1.0).abs();
             let (little, much) = (a * TINY.sqrt(), a * SMALL.sqrt());
-            assert!(error(moved_a_little(1.0, little), little) < 5e-16, "a = {little}");
-            assert!(error(moved(1.0, much), much) < 5e-16, "a = {much}");
+            assert!(
+                error(Constants::new().moved_a_little(1.0, little, little * little), little) < 5e-16,
+                "a = {little}"
+            );
+            assert!(error(moved(1.0, much, much * much), much) < 5e-16, "a = {much}");
         }
     }
 

@@ -84,7 +84,7 @@ kernel! {
             let down = (adjacent + equal).where_below(own, change);
             let felt = none.most((Chunk::load(&frustration[k]) + up) - down);
             let left = Chunk::load(&clocks[k]) - felt * per_step;
-            if left.reaches(none) != u8::MAX {
+            if left.reaches(none) != u8::MAX >> (8 - CHUNK) {
                 *next = k;
                 return;
             }
@@ -145,13 +145,14 @@ pub struct ExponentialClock {
     bound_per_step: f64,
     time_step: f64,
     generator: Generator,
+    steps: Squeeze,
 }
 
 impl Sampler for ExponentialClock {
     fn new(vehicles: usize, time_step: f64, mut generator: Generator) -> Self {
         let mut left: Vec<f64> = (0..vehicles).map(|_| generator.exponential()).collect();
         left.resize(padded(vehicles), f64::INFINITY);
-        Self { left, bound_per_step: BOUND * time_step, time_step, generator }
+        Self { left, bound_per_step: BOUND * time_step, time_step, generator, steps: Squeeze::new() }
     }
 
     #[inline(always)]
@@ -176,8 +177,54 @@ impl ExponentialClock {
     #[cold]
     fn rings(&mut self, vehicle: usize, frustration: f64, hazard_bound: f64) -> bool {
         self.left[vehicle] = self.generator.exponential();
-        let bound = -libm::expm1(-hazard_bound);
-        self.generator.uniform() * bound < attempt_probability_in_step(frustration, self.time_step)
+        let uniform = self.generator.uniform();
+        self.steps.decides(uniform, hazard_bound, frustration, self.time_step).unwrap_or_else(|| {
+            let bound = -libm::expm1(-hazard_bound);
+            uniform * bound < attempt_probability_in_step(frustration, self.time_step)
+        })
+    }
+}
+
+/// Most rings of a clock are decided without a transcendental function, as the exact comparison would: P* grows with φ, so
+/// that it lies between its values at two nodes, and P̂ = 1 − e^−x lies between x/(1 + x) and the smaller of x and 1.
+#[derive(Clone, Debug)]
+struct Squeeze {
+    /// P* at the nodes from [`Self::FIRST`] on; NaN where nobody has asked yet.
+    known: Vec<f64>,
+}
+
+impl Squeeze {
+    /// Nodes are the numbers with one bit after the leading one, in order; so many bits are left out of each.
+    const BITS: u32 = 51;
+    /// The node 2⁻¹⁰.
+    const FIRST: u64 = (1023 - 10) << 1;
+    /// Up to 2⁴⁰.
+    const COUNT: usize = 101;
+
+    fn new() -> Self {
+        Self { known: vec![f64::NAN; Self::COUNT] }
+    }
+
+    /// P* at a node.
+    fn at(&mut self, node: usize, time_step: f64) -> Option<f64> {
+        let known = self.known.get_mut(node)?;
+        if known.is_nan() {
+            let frustration = f64::from_bits((Self::FIRST + node as u64) << Self::BITS);
+            *known = attempt_probability_in_step(frustration, time_step);
+        }
+        Some(*known)
+    }
+
+    /// Whether u·P̂ < P*, where that can be told from the bounds, with room for rounding.
+    fn decides(&mut self, uniform: f64, hazard_bound: f64, frustration: f64, time_step: f64) -> Option<bool> {
+        const ROOM: f64 = 1e-9;
+        let node = (frustration.to_bits() >> Self::BITS).checked_sub(Self::FIRST)? as usize;
+        let ceiling = self.at(node + 1, time_step)?;
+        if uniform * (hazard_bound / (1.0 + hazard_bound)) > ceiling * (1.0 + ROOM) {
+            return Some(false);
+        }
+        let floor = self.at(node, time_step)?;
+        (uniform * hazard_bound.min(1.0) < floor * (1.0 - ROOM)).then_some(true)
     }
 }
 
@@ -207,6 +254,27 @@ mod tests {
                 assert!((1.0 - none - attempt_probability(phi)).abs() < 1e-12, "φ = {phi}, {steps} steps");
             }
         }
+    }
+
+    #[test]
+    fn a_ring_is_decided_as_by_the_exact_comparison() {
+        let mut generator = Generator::new(3, Stream::LaneChanging);
+        let (mut squeeze, time_step) = (Squeeze::new(), 0.01);
+        let mut decided = [0, 0];
+        let rings = 400_000;
+        for k in 0..rings {
+            let frustration =
+                if k % 20 == 0 { f64::from(1 << (k % 31)) } else { exp(30.0 * generator.uniform() - 8.0) };
+            let (uniform, hazard_bound) = (generator.uniform(), BOUND * frustration * time_step);
+            let exact =
+                uniform * -libm::expm1(-hazard_bound) < attempt_probability_in_step(frustration, time_step);
+            if let Some(decision) = squeeze.decides(uniform, hazard_bound, frustration, time_step) {
+                assert_eq!(decision, exact, "φ = {frustration}, u = {uniform}");
+                decided[usize::from(decision)] += 1;
+            }
+        }
+        let share = f64::from(decided[0] + decided[1]) / f64::from(rings);
+        assert!(share > 0.8 && decided[1] > 1000, "{decided:?} of {rings} are decided");
     }
 
     #[test]

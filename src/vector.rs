@@ -7,8 +7,9 @@
 
 use std::ops::{Add, Mul, Sub};
 
-/// Numbers that a kernel handles at a time: a whole number of vectors of every width.
-pub const CHUNK: usize = 8;
+/// Numbers that a kernel handles at a time: a whole number of vectors of every width. In WebAssembly, where there is one
+/// width and there are only sixteen registers, two vectors.
+pub const CHUNK: usize = if cfg!(all(target_arch = "wasm32", target_feature = "simd128")) { 4 } else { 8 };
 
 /// What a formula needs to be written once, for one number and for a chunk of them.
 pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
@@ -73,10 +74,10 @@ mod chunk {
         }
         /// Whether all are at most `bound`; NaN is not.
         #[inline(always)]
-        pub(crate) fn are_at_most(self, bound: f64) -> bool {
+        pub(crate) fn are_at_most(self, bound: Self) -> bool {
             let mut within = true;
-            for x in self.0 {
-                within &= x <= bound;
+            for j in 0..CHUNK {
+                within &= self.0[j] <= bound.0[j];
             }
             within
         }
@@ -129,7 +130,9 @@ mod chunk {
         /// (smallest, largest)
         #[inline(always)]
         pub(crate) fn reduced(self) -> (f64, f64) {
-            let ([a, b, c, d, e, f, g, h], [p, q, r, s, t, u, v, w]) = (self.least.0, self.most.0);
+            // Hidden from the compiler, which else picks the vectors of the whole loop apart for this.
+            let [a, b, c, d, e, f, g, h] = std::hint::black_box(self.least.0);
+            let [p, q, r, s, t, u, v, w] = std::hint::black_box(self.most.0);
             (
                 a.least(b).least(c.least(d)).least(e.least(f).least(g.least(h))),
                 p.most(q).most(r.most(s)).most(t.most(u).most(v.most(w))),
@@ -184,8 +187,8 @@ mod chunk {
     use super::{CHUNK, Real};
     use core::arch::wasm32::{
         f64x2, f64x2_add, f64x2_extract_lane, f64x2_ge, f64x2_le, f64x2_lt, f64x2_mul, f64x2_pmax,
-        f64x2_pmin, f64x2_splat, f64x2_sub, i64x2_add, i64x2_all_true, i64x2_bitmask, i64x2_shl, v128,
-        v128_and, v128_bitselect, v128_load, v128_store,
+        f64x2_pmin, f64x2_splat, f64x2_sub, i64x2_add, i64x2_bitmask, i64x2_shl, v128, v128_and,
+        v128_bitselect, v128_load, v128_store,
     };
 
     /// [`CHUNK`] numbers side by side.
@@ -197,66 +200,56 @@ mod chunk {
         #[allow(unsafe_code, clippy::cast_ptr_alignment)]
         pub(crate) fn load(from: &[f64; CHUNK]) -> Self {
             let from = from.as_ptr().cast::<v128>();
-            // SAFETY: CHUNK numbers are four vectors; the load needs no alignment.
-            unsafe {
-                Self([
-                    v128_load(from),
-                    v128_load(from.add(1)),
-                    v128_load(from.add(2)),
-                    v128_load(from.add(3)),
-                ])
-            }
+            // SAFETY: CHUNK numbers are two vectors; the load needs no alignment.
+            unsafe { Self([v128_load(from), v128_load(from.add(1))]) }
         }
         /// The numbers at these places of a slice.
         #[inline(always)]
         pub(crate) fn gather(from: &[f64], places: &[u32; CHUNK]) -> Self {
             let pair = |j: usize| f64x2(from[places[j] as usize], from[places[j + 1] as usize]);
-            Self([pair(0), pair(2), pair(4), pair(6)])
+            Self([pair(0), pair(2)])
         }
         #[inline(always)]
         #[allow(unsafe_code, clippy::cast_ptr_alignment)]
         pub(crate) fn store(self, to: &mut [f64; CHUNK]) {
             let to = to.as_mut_ptr().cast::<v128>();
-            let [a, b, c, d] = self.0;
+            let [a, b] = self.0;
             // SAFETY: as in `load`.
             unsafe {
                 v128_store(to, a);
                 v128_store(to.add(1), b);
-                v128_store(to.add(2), c);
-                v128_store(to.add(3), d);
             }
         }
         #[inline(always)]
         pub(crate) fn splat(value: f64) -> Self {
-            // Built for size, `[v; 4]` would be a loop through memory.
+            // Built for size, `[v; 2]` might be a loop through memory.
             let v = f64x2_splat(value);
-            Self([v, v, v, v])
+            Self([v, v])
         }
         #[inline(always)]
         fn zip(self, other: Self, f: impl Fn(v128, v128) -> v128) -> Self {
             let (a, b) = (self.0, other.0);
-            Self([f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])])
+            Self([f(a[0], b[0]), f(a[1], b[1])])
         }
         /// Whether all are at most `bound`; NaN is not.
         #[inline(always)]
-        pub(crate) fn are_at_most(self, bound: f64) -> bool {
-            let bound = f64x2_splat(bound);
-            let [a, b, c, d] = self.0.map(|x| f64x2_le(x, bound));
-            i64x2_all_true(v128_and(v128_and(a, b), v128_and(c, d)))
+        pub(crate) fn are_at_most(self, bound: Self) -> bool {
+            let (x, y) = (self.0, bound.0);
+            i64x2_bitmask(v128_and(f64x2_le(x[0], y[0]), f64x2_le(x[1], y[1]))) == 3
         }
         /// A bit for each number, the first one lowest: whether it is at least the other one.
         #[inline(always)]
         pub(crate) fn reaches(self, other: Self) -> u8 {
             let (x, y) = (self.0, other.0);
             let bits = |j: usize| i64x2_bitmask(f64x2_ge(x[j], y[j])) << (2 * j);
-            bits(0) | bits(1) | bits(2) | bits(3)
+            bits(0) | bits(1)
         }
         /// `value` where the number is smaller than the other one, else 0.
         #[inline(always)]
         pub(crate) fn where_below(self, other: Self, value: Self) -> Self {
             let (x, y, v) = (self.0, other.0, value.0);
             let one = |j: usize| v128_and(f64x2_lt(x[j], y[j]), v[j]);
-            Self([one(0), one(1), one(2), one(3)])
+            Self([one(0), one(1)])
         }
         /// A mask: all bits set where the number is at most `bound`, else none.
         #[inline(always)]
@@ -268,7 +261,7 @@ mod chunk {
         pub(crate) fn choose(self, yes: Self, no: Self) -> Self {
             let (mask, a, b) = (self.0, yes.0, no.0);
             let one = |j: usize| v128_bitselect(a[j], b[j], mask[j]);
-            Self([one(0), one(1), one(2), one(3)])
+            Self([one(0), one(1)])
         }
     }
 
@@ -289,9 +282,9 @@ mod chunk {
         }
         #[inline(always)]
         pub(crate) fn take(&mut self, chunk: Chunk) {
-            let [a, b, c, d] = chunk.0;
-            self.least = f64x2_pmin(self.least, f64x2_pmin(f64x2_pmin(a, b), f64x2_pmin(c, d)));
-            self.most = f64x2_pmax(self.most, f64x2_pmax(f64x2_pmax(a, b), f64x2_pmax(c, d)));
+            let [a, b] = chunk.0;
+            self.least = f64x2_pmin(self.least, f64x2_pmin(a, b));
+            self.most = f64x2_pmax(self.most, f64x2_pmax(a, b));
         }
         /// (smallest, largest)
         #[inline(always)]

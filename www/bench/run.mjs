@@ -18,7 +18,7 @@ function native(name, vehicles) {
   const file = at(`../../target/criterion/step/${name}/${vehicles}/new/sample.json`)
   if (!existsSync(file)) return undefined
   const { iters, times } = JSON.parse(readFileSync(file, 'utf8'))
-  return Math.min(...times.map((t, i) => t / iters[i])) / vehicles
+  return Math.min(...times.map((t, i) => t / iters[i]))
 }
 
 const number = (x, digits = 2) => (x === undefined ? '–' : x.toFixed(digits))

@@ -83,7 +83,7 @@ test('a number out of range gets a sentence and the last good value stays', asyn
 })
 
 test('a long export can be cancelled, and the page stays alive meanwhile', async ({ open }) => {
-  const page = await open('index.html#vehicles=1000&length=20000')
+  const page = await open('index.html#vehicles=4000&length=80000')
   await ready(page)
   await playTo(page, 30)
   await page.click('#open-files')
