@@ -119,20 +119,19 @@ impl<T: Real> Constants<T> {
     /// A new shortfall from the old one, where `a2` = a² ≤ [`TINY`].
     #[inline(always)]
     fn moved_a_little(&self, shortfall: T, a: T, a2: T) -> T {
+        // Taylor's polynomial, Estrin's scheme: short chains, so that a vector unit stays busy.
         let high = (self.half + a * self.sixth) + a2 * self.twenty_fourth;
         shortfall * ((self.one + a) + high * a2)
     }
-}
 
-/// A new shortfall from the old one, where a² ≤ [`SMALL`].
-#[inline(always)]
-fn moved<T: Real>(shortfall: T, a: T, a2: T) -> T {
-    // Taylor's polynomial, Estrin's scheme: short chains, so that a vector unit stays busy.
-    let c = T::all;
-    let low = c(1.0) + a;
-    let middle = c(1.0 / 2.0) + a * c(1.0 / 6.0);
-    let high = (c(1.0 / 24.0) + a * c(1.0 / 120.0)) + a2 * c(1.0 / 720.0);
-    shortfall * ((low + middle * a2) + high * (a2 * a2))
+    /// The same where a² ≤ [`SMALL`].
+    #[inline(always)]
+    fn moved(&self, shortfall: T, a: T, a2: T) -> T {
+        let low = self.one + a;
+        let middle = self.half + a * self.sixth;
+        let high = (self.twenty_fourth + a * T::all(1.0 / 120.0)) + a2 * T::all(1.0 / 720.0);
+        shortfall * ((low + middle * a2) + high * (a2 * a2))
+    }
 }
 
 /// The laws of one chunk of vehicles.
@@ -172,13 +171,18 @@ struct Drivers<'a> {
 impl<'a> Drivers<'a> {
     #[inline(always)]
     fn new(state: &'a mut State, offset: &'a [f64]) -> Self {
-        let speed = chunks_mut(&mut state.speed);
-        let count = speed.len();
+        let end = state.speed.len() / CHUNK;
+        Self::some(state, offset, 0, end)
+    }
+
+    /// Those of some chunks.
+    #[inline(always)]
+    fn some(state: &'a mut State, offset: &'a [f64], begin: usize, end: usize) -> Self {
         Self {
-            gap: &mut chunks_mut(&mut state.gap)[..count],
-            shortfall: &mut chunks_mut(&mut state.shortfall)[..count],
-            speed,
-            offset: &chunks(offset)[..count],
+            gap: &mut chunks_mut(&mut state.gap)[begin..end],
+            shortfall: &mut chunks_mut(&mut state.shortfall)[begin..end],
+            speed: &mut chunks_mut(&mut state.speed)[begin..end],
+            offset: &chunks(offset)[begin..end],
             constants: Constants::new(),
         }
     }
@@ -202,7 +206,8 @@ impl<'a> Drivers<'a> {
                 return self.constants.moved_a_little(old, a, a2);
             }
             if a2.are_at_most(Chunk::splat(SMALL)) {
-                return a2.at_most(TINY).choose(self.constants.moved_a_little(old, a, a2), moved(old, a, a2));
+                let little = self.constants.moved_a_little(old, a, a2);
+                return a2.at_most(self.constants.tiny).choose(little, self.constants.moved(old, a, a2));
             }
         }
         let argument = law.rate * ((Chunk::load(&self.offset[k]) + gap) - law.min_headway);
@@ -229,9 +234,10 @@ fn respond_rarely(
     let next = if refresh {
         in_full
     } else {
+        let constants = Constants::new();
         // Not at most anything: NaN, a vehicle without a valid shortfall.
-        let next = a2.at_most(SMALL).choose(moved(old, a, a2), in_full);
-        a2.at_most(TINY).choose(Constants::new().moved_a_little(old, a, a2), next)
+        let next = a2.at_most(Chunk::splat(SMALL)).choose(constants.moved(old, a, a2), in_full);
+        a2.at_most(constants.tiny).choose(constants.moved_a_little(old, a, a2), next)
     };
     next.store(shortfall);
 }
@@ -299,18 +305,18 @@ kernel! {
         history: &mut History, delay: usize, first: u64, steps: usize, offset: &[f64], law: Law, dt: f64,
         state: &mut State,
     ) {
-        let mut drivers = Drivers::new(state, offset);
-        let count = drivers.speed.len();
         let (law, dt) = (ChunkLaw::common(law), Chunk::splat(dt));
+        let count = state.speed.len() / CHUNK;
         for begin in (0..count).step_by(BLOCK) {
             let end = count.min(begin + BLOCK);
+            let mut drivers = Drivers::some(state, offset, begin, end);
             for step in 1..=steps {
                 let refresh = (first + step as u64).is_multiple_of(REFRESH);
                 let (new, past) = history.ahead(step);
                 let seen = past.seen(delay);
-                let (old, new) = (&chunks(past.seen(1))[..end], &mut chunks_mut(new)[..end]);
-                let (seen, ahead) = (&chunks(seen)[..end], &chunks(&seen[1..])[..end]);
-                for k in begin..end {
+                let (old, new) = (&chunks(past.seen(1))[begin..end], &mut chunks_mut(new)[begin..end]);
+                let (seen, ahead) = (&chunks(seen)[begin..end], &chunks(&seen[1..])[begin..end]);
+                for k in 0..end - begin {
                     (Chunk::load(&old[k]) + Chunk::load(&drivers.speed[k]) * dt).store(&mut new[k]);
                     drivers.respond(k, Chunk::load(&ahead[k]) - Chunk::load(&seen[k]), law, refresh);
                 }
@@ -571,7 +577,7 @@ mod tests {
                 error(Constants::new().moved_a_little(1.0, little, little * little), little) < 5e-16,
                 "a = {little}"
             );
-            assert!(error(moved(1.0, much, much * much), much) < 5e-16, "a = {much}");
+            assert!(error(Constants::new().moved(1.0, much, much * much), much) < 5e-16, "a = {much}");
         }
     }
 

@@ -97,8 +97,8 @@ mod chunk {
         }
         /// A mask: all bits set where the number is at most `bound`, else none.
         #[inline(always)]
-        pub(crate) fn at_most(self, bound: f64) -> Self {
-            Self(self.0.map(|x| f64::from_bits(if x <= bound { u64::MAX } else { 0 })))
+        pub(crate) fn at_most(self, bound: Self) -> Self {
+            self.zip(bound, |x, bound| f64::from_bits(if x <= bound { u64::MAX } else { 0 }))
         }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]
@@ -253,8 +253,8 @@ mod chunk {
         }
         /// A mask: all bits set where the number is at most `bound`, else none.
         #[inline(always)]
-        pub(crate) fn at_most(self, bound: f64) -> Self {
-            self.zip(Self::splat(bound), |a, b| f64x2_le(a, b))
+        pub(crate) fn at_most(self, bound: Self) -> Self {
+            self.zip(bound, |a, b| f64x2_le(a, b))
         }
         /// `yes` where all bits of the number in `self` are set, `no` where none is.
         #[inline(always)]
