@@ -126,7 +126,7 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
     }
     const inner = outer - width * lanes
     kmh.hidden = density.hidden = inner < 75
-    if (inner > 95) {
+    if (inner > 108) {
       c.textAlign = 'center'
       c.textBaseline = 'middle'
       const r = inner - 14
@@ -138,7 +138,7 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
         c.font = '600 13px system-ui, sans-serif'
         c.fillText(t.car(session.watched + 1), cx + x, cy + y)
         // The watched car's name has the place at the top.
-        if (Math.abs(x) < 60 && y < 20 - r) travel += 17
+        if (Math.abs(x) < 60 && y < 17 - r) travel = cy + y + 17
       }
       c.fillStyle = colours.line
       c.font = '13px system-ui, sans-serif'
