@@ -139,6 +139,12 @@ const boxes = () => {
   }
   apart([...document.querySelectorAll('.card, #verdict, [data-view=lab] .top')].filter(seen))
   apart([...document.querySelectorAll('.stability section')].filter(seen))
+  for (const e of [...document.querySelectorAll('.card :is(button, select, label)')].filter(seen)) {
+    if (!e.closest('[role=tabpanel]') && e.getBoundingClientRect().bottom > e.closest('.card').getBoundingClientRect().bottom) faults.push(`${name(e)} hangs out of its card`)
+  }
+  for (const e of [...document.querySelectorAll('input[type=number]')].filter(seen)) {
+    if (e.scrollWidth > e.clientWidth + 1) faults.push(`${name(e)} cuts ${e.value}`)
+  }
   // A choice is as wide as its words.
   for (const select of [...document.querySelectorAll('select')].filter(seen)) {
     const free = select.cloneNode(true)

@@ -139,7 +139,7 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
     'div',
     { class: 'control' },
     label,
-    slider ?? el('span'),
+    slider,
     el('div', { class: 'field' }, number, el('span', { 'aria-hidden': 'true' }, parameter.unit)),
     back,
     wrong,
