@@ -126,23 +126,23 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
     }
     const inner = outer - width * lanes
     kmh.hidden = density.hidden = inner < 75
-    if (inner > 108) {
+    if (inner > 95) {
       c.textAlign = 'center'
       c.textBaseline = 'middle'
       const r = inner - 14
-      let travel = cy - r
+      let travel: number | null = cy - r
       if (!many && session.watched < frame.positions.length) {
         const a = angle(frame.positions[session.watched]!)
         const [x, y] = [(r - 8 * Math.abs(Math.cos(a))) * Math.cos(a), r * Math.sin(a)]
         c.fillStyle = colours.ink
         c.font = '600 13px system-ui, sans-serif'
         c.fillText(t.car(session.watched + 1), cx + x, cy + y)
-        // The watched car's name has the place at the top.
-        if (Math.abs(x) < 60 && y < 17 - r) travel = cy + y + 17
+        // The watched car's name has the place at the top; below it there is room on a large ring only.
+        if (Math.abs(x) < 60 && y < 17 - r) travel = inner > 108 ? cy + y + 17 : null
       }
       c.fillStyle = colours.line
       c.font = '13px system-ui, sans-serif'
-      c.fillText(t.travel, cx, travel)
+      if (travel !== null) c.fillText(t.travel, cx, travel)
     }
     if (gliding && !session.playing) requestAnimationFrame(redraw)
   })
