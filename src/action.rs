@@ -186,6 +186,19 @@ impl Action {
         Self::of(at, who, effects).map_err(|e| e.within(quoted(text)))
     }
 
+    /// Whether this, done after `earlier` in the same step, leaves nothing of it: the same vehicles, their parameters
+    /// set again, braked for as long or longer. Nudges add up, and a share is drawn anew by every action.
+    pub(crate) fn replaces(&self, earlier: &Self) -> bool {
+        let again = |old: &Effect| {
+            self.effects.iter().any(|new| match (old, new) {
+                (Effect::Set(a, _), Effect::Set(b, _)) => a.name == b.name,
+                (Effect::Brake(before), Effect::Brake(now)) => before <= now,
+                _ => false,
+            })
+        };
+        !matches!(self.who, Who::Share(_)) && self.who == earlier.who && earlier.effects.iter().all(again)
+    }
+
     fn of(at: f64, who: &str, effects: &str) -> Result<Self, Invalid> {
         let effects = effects.split(',').map(str::parse).collect::<Result<_, _>>()?;
         Ok(Self { at, who: who.parse()?, effects })
@@ -276,6 +289,24 @@ mod tests {
         }
         let message = Action::at(0.0, "7:sleep=3").unwrap_err().to_string();
         assert!(message.contains("“7:sleep=3”") && message.contains("“sleep”"), "{message}");
+    }
+
+    #[test]
+    fn what_leaves_nothing_of_an_earlier_action_replaces_it() {
+        for (earlier, now, replaced) in [
+            ("all:sensitivity=1", "all:sensitivity=2", true),
+            ("all:sensitivity=1", "all:reaction-time=1,sensitivity=2", true),
+            ("all:reaction-time=1,sensitivity=1", "all:sensitivity=2", false),
+            ("7:sensitivity=1", "8:sensitivity=2", false),
+            ("7:sensitivity=1", "7:reaction-time=1", false),
+            ("7:brake=3", "7:brake=3", true),
+            ("7:brake=3", "7:brake=2", false),
+            ("7:nudge=1", "7:nudge=1", false),
+            ("10%:sensitivity=1", "10%:sensitivity=1", false),
+        ] {
+            let [earlier, now] = [earlier, now].map(|text| Action::at(0.0, text).unwrap());
+            assert_eq!(now.replaces(&earlier), replaced, "{earlier}, then {now}");
+        }
     }
 
     #[test]

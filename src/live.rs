@@ -218,9 +218,10 @@ impl Live {
         }
     }
 
-    /// Does something now.
+    /// Does something now. Of several settings of one parameter at one instant the last stays.
     pub fn act(&mut self, action: Action) -> Result<(), Invalid> {
         self.simulation.act(action)?;
+        self.simulation.forget_replaced();
         self.plan();
         self.consider();
         Ok(())
@@ -692,6 +693,60 @@ mod tests {
         let before = live.simulation().scenario().clone();
         assert!(live.set("vehicles", "300").is_err() && live.set("colour", "1").is_err());
         assert_eq!(*live.simulation().scenario(), before, "a refusal changes nothing");
+    }
+
+    #[test]
+    fn what_is_set_again_at_the_same_instant_is_kept_once() {
+        let mut live = run("reaction-time=0.6&action=at%3D20%3A9%3Abrake%3D1", 5.0);
+        let act = |live: &mut Live, text: &str| live.act(Action::at(0.0, text).unwrap()).unwrap();
+        for text in ["all:reaction-time=0.3", "7:nudge=1", "3:brake=2"] {
+            act(&mut live, text);
+        }
+        live.set("sensitivity", "1.2").unwrap();
+        for text in ["7:nudge=1", "3:brake=3", "all:reaction-time=0.7"] {
+            act(&mut live, text);
+        }
+        // A longer headway needs the shorter vehicle, so that this stays.
+        for text in ["5:vehicle-length=4", "5:min-headway=4.5", "5:vehicle-length=4.2"] {
+            act(&mut live, text);
+        }
+        let texts = |live: &Live| {
+            live.simulation().scenario().actions.iter().map(Action::to_string).collect::<Vec<_>>().join(" ")
+        };
+        let kept = "at=20:9:brake=1 at=5:7:nudge=1 at=5:all:sensitivity=1.2 at=5:7:nudge=1 at=5:3:brake=3 \
+                    at=5:all:reaction-time=0.7 at=5:5:vehicle-length=4 at=5:5:min-headway=4.5 \
+                    at=5:5:vehicle-length=4.2";
+        assert_eq!(texts(&live), kept);
+        // Another instant is another action.
+        live.step(1);
+        act(&mut live, "all:reaction-time=0.65");
+        assert_eq!(texts(&live), format!("{kept} at=5.01:all:reaction-time=0.65"));
+        is_replayed(live);
+    }
+
+    #[test]
+    fn what_is_still_to_come_stays_where_something_is_set_again() {
+        let live = |actions: &str| {
+            let mut live = run(&format!("reaction-time=0.6&{actions}"), 5.0);
+            live.act("at=0:3:sensitivity=1.3".parse().unwrap()).unwrap();
+            let count = live.simulation().scenario().actions.len();
+            is_replayed(live);
+            count
+        };
+        assert_eq!(live("action=at%3D5%3A3%3Asensitivity%3D1.1&action=at%3D20%3A9%3Abrake%3D1"), 2);
+        // A share is drawn by its place in the list.
+        assert_eq!(live("action=at%3D5%3A3%3Asensitivity%3D1.1&action=at%3D20%3A20%25%3Abrake%3D1"), 3);
+    }
+
+    /// The rest of the run, and all of it again.
+    fn is_replayed(mut live: Live) {
+        live.step(2500);
+        let mut replay = Simulation::new(&live.so_far()).unwrap();
+        replay.run_to(u64::MAX);
+        for j in 0..replay.vehicles() {
+            let [a, b] = [&replay, live.simulation()].map(|s| s.unwrapped_position(j).to_bits());
+            assert_eq!(a, b, "vehicle {}", j + 1);
+        }
     }
 
     #[test]

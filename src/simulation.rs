@@ -18,7 +18,7 @@
 //! - Nudges move a vehicle past others as driving does: in its own lane that is a collision, in an adjacent one a
 //!   pass.
 
-use crate::action::{Action, Effect};
+use crate::action::{Action, Effect, Who};
 use crate::driver::Driver;
 use crate::error::Invalid;
 use crate::following::{Following, REFRESH, Scene};
@@ -629,6 +629,31 @@ impl<S: Sampler> Simulation<S> {
         }
         self.look(false);
         Ok(())
+    }
+
+    /// Takes out of the scenario what was done in this step and is undone by the last [`Self::act`]: a replay gives
+    /// the same bits with fewer actions.
+    pub fn forget_replaced(&mut self) {
+        let Some((last, before)) = self.scenario.actions.split_last() else { return };
+        // A share is drawn by its place in the list, which therefore stays.
+        let first = before.iter().rposition(|a| matches!(a.who, Who::Share(_))).map_or(0, |k| k + 1);
+        let replaced = |&k: &usize| {
+            self.scenario.steps(before[k].at) == self.step
+                && self.scenario.steps(last.at) == self.step
+                && last.replaces(&before[k])
+        };
+        let places: Vec<usize> = (first..before.len()).rev().filter(replaced).collect();
+        for k in places {
+            let mut fewer = self.scenario.clone();
+            fewer.actions.remove(k);
+            // What came in between may hold only because of it: a headway that fits a shorter vehicle.
+            if fewer.validate().is_ok() {
+                self.scenario = fewer;
+                for (_, index) in &mut self.agenda {
+                    *index -= usize::from(*index > k);
+                }
+            }
+        }
     }
 
     /// Computes with vectors of another width; results stay the same to the last bit.

@@ -45,12 +45,15 @@ async function run(app: HTMLElement): Promise<void> {
     { id: 'car', name: text.tabs.car, panel: carView(session) },
     { id: 'actions', name: text.tabs.actions, panel: actionsView(session) },
   ])
+  const messages = el('div', { class: 'messages' }, verdict.element, troubleView(session), header.note)
+  // What else fits one screen gives way to them.
+  new ResizeObserver(() => app.style.setProperty('--messages', `${messages.offsetHeight}px`)).observe(messages)
   app.replaceChildren(
     header.element,
     el(
       'main',
       {},
-      el('div', { class: 'messages' }, verdict.element, troubleView(session), header.note),
+      messages,
       el('div', { class: 'left' }, ring, controls),
       el('div', { class: 'right' }, map, speedsView(session), more),
     ),

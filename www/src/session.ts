@@ -2,6 +2,7 @@
 import { Cancelled, type Client } from './client/client'
 import { Pace } from './pace'
 import type { Answer, Ask, Frame, Legends, Name, Opened, Snapshot, Start, View } from './shared/protocol'
+import { text } from './text'
 
 /** Columns since the start of the run, at most as many as the map shows. */
 export interface Series {
@@ -16,6 +17,8 @@ interface Events {
   /** Something other than the traffic changed. */
   snapshot: Snapshot
   frame: Frame
+  /** Something else is open: the name of an experiment, or empty for a link or a file. */
+  opened: string
   /** Play, pause, playback, falling behind. */
   playing: boolean
   legends: Legends
@@ -69,8 +72,8 @@ export class Session {
   #emit<K extends keyof Events>(event: K, value: Events[K]): void {
     if (event === 'trouble' && this.onTrouble) {
       const messages = value as readonly string[]
-      if (messages.length > 0) this.onTrouble(messages)
-      return
+      // What stood on the page is cleared all the same.
+      if (messages.length > 0) return this.onTrouble(messages)
     }
     for (const listener of this.#listeners.get(event) ?? []) (listener as Listener<K>)(value)
   }
@@ -94,16 +97,17 @@ export class Session {
   // --- what is open
 
   async open(name: 'link' | 'file', text: string): Promise<boolean> {
-    return this.#opened(await this.#ask(name, { text }))
+    return this.#opened(await this.#ask(name, { text }), '')
   }
   async preset(name: string): Promise<boolean> {
-    return this.#opened(await this.#ask('preset', { name }))
+    return this.#opened(await this.#ask('preset', { name }), name)
   }
-  async #opened(opened: Opened | null): Promise<boolean> {
+  async #opened(opened: Opened | null, preset: string): Promise<boolean> {
     if (!opened) return false
     if (this.watched >= opened.snapshot.scenario.vehicles) this.watched = 0
     if (this.view.lane >= opened.snapshot.scenario.lanes) this.view = { ...this.view, lane: 0 }
     await this.#changed(opened.snapshot)
+    this.#emit('opened', preset)
     if (opened.messages.length > 0) this.#emit('trouble', opened.messages)
     return true
   }
@@ -111,8 +115,12 @@ export class Session {
   // --- what is done to it
 
   /** Does something now, such as `7:brake=3`. */
-  act(text: string): Promise<boolean> {
-    return this.#change('act', { text })
+  async act(action: string): Promise<boolean> {
+    if (this.frame?.collision) {
+      this.#emit('trouble', [text.trouble.over])
+      return false
+    }
+    return this.#change('act', { text: action })
   }
   /** Sets a parameter: a driver's from now on, any other by starting again. */
   set(name: string, value: string): Promise<boolean> {

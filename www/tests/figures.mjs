@@ -223,10 +223,21 @@ test('figures: there and back again, the laboratory stays as it was', async ({ o
   equal(await page.evaluate(() => window.ringroad.playing), false, 'playing')
   holds(!(await page.isVisible('#ring')), 'the ring is still to be seen')
   const time = await page.evaluate(() => window.ringroad.frame.time)
+  await page.waitForTimeout(200)
+  equal(await page.evaluate(() => window.ringroad.frame.time), time, 'time')
   await page.goBack()
   await page.waitForSelector('#ring', { state: 'visible' })
   holds(!(await page.isVisible('#figures')), 'the figures are still to be seen')
-  equal(await page.evaluate(() => window.ringroad.frame.time), time, 'time')
+  await page.waitForFunction(time => window.ringroad.frame.time > time, time)
+  // What was paused stays so.
+  await page.click('#play')
+  const paused = await page.evaluate(() => window.ringroad.frame.time)
+  await page.click('#open-figures')
+  await page.waitForSelector('#figures', { state: 'visible' })
+  await page.click('#open-figures')
+  await page.waitForSelector('#ring', { state: 'visible' })
+  equal(await page.evaluate(() => window.ringroad.playing), false, 'playing although it was paused')
+  equal(await page.evaluate(() => window.ringroad.frame.time), paused, 'time')
   equal(await page.evaluate(() => window.ringroad.snapshot.scenario.vehicles), 40, 'vehicles')
 })
 
@@ -239,3 +250,24 @@ for (const [width, height] of [[1280, 800], [390, 844]]) {
     holds(over <= 0, `${over} px too wide`)
   })
 }
+
+test('figures: dark where the page is, and a picture wider than a phone fades where it goes on', async ({ open }) => {
+  for (const [colorScheme, dark] of [['light', false], ['dark', true]]) {
+    const page = await open('figures.html', { colorScheme, viewport: { width: 390, height: 844 } })
+    await page.waitForSelector('#figure-fundamental-diagram .run')
+    await runs(page, 'fundamental-diagram')
+    const plot = page.locator('#figure-fundamental-diagram .plot')
+    const mean = await page.evaluate(async base64 => {
+      const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), c => c.charCodeAt(0))]))
+      const context = new OffscreenCanvas(image.width, image.height).getContext('2d')
+      context.drawImage(image, 0, 0)
+      return context.getImageData(0, 0, image.width, image.height).data.reduce((sum, v, k) => (k % 4 < 3 ? sum + v : sum), 0) / (image.width * image.height * 3)
+    }, (await plot.screenshot()).toString('base64'))
+    holds(dark ? mean < 70 : mean > 190, `${colorScheme}: mean brightness ${mean}`)
+    const fades = () => plot.evaluate(e => e.classList.contains('more'))
+    equal(await fades(), true, 'fades at the start')
+    await plot.evaluate(e => void (e.scrollLeft = e.scrollWidth))
+    await page.waitForTimeout(100)
+    equal(await fades(), false, 'fades at the end')
+  }
+})

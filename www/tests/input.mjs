@@ -23,6 +23,51 @@ test('a hash typed into the address opens another experiment', async ({ open }) 
   await page.waitForFunction(() => window.ringroad.snapshot.scenario.vehicles === 25)
 })
 
+test('what went wrong and an experiment’s note go when something else is opened', async ({ open }) => {
+  const page = await open('index.html', { reducedMotion: 'reduce' })
+  await ready(page)
+  const others = {
+    file: () => page.setInputFiles('#file', { name: 'forty.json', mimeType: 'application/json', buffer: Buffer.from('{"vehicles": 40}') }),
+    link: () => page.evaluate(() => void (location.hash = '#vehicles=40')),
+  }
+  for (const [name, other] of Object.entries(others)) {
+    await page.selectOption('#presets', 'stable')
+    await page.waitForSelector('#preset:not([hidden])')
+    await page.evaluate(() => window.ringroad.set('vehicles', '300'))
+    await page.waitForSelector('#trouble:not([hidden])')
+    equal(await page.inputValue('#presets'), 'stable', 'the list of experiments')
+    await other()
+    await page.waitForFunction(() => window.ringroad.snapshot.scenario.vehicles === 40)
+    for (const id of ['trouble', 'preset']) await page.waitForSelector(`#${id}`, { state: 'hidden' })
+    equal(await page.inputValue('#presets'), '', `the list of experiments after a ${name}`)
+  }
+  await page.evaluate(() => window.ringroad.set('vehicles', '300'))
+  await page.waitForSelector('#trouble:not([hidden])')
+  await page.selectOption('#presets', 'three-lanes')
+  await page.waitForSelector('#trouble', { state: 'hidden' })
+  holds((await page.textContent('#preset')).startsWith('Three lanes.'), await page.textContent('#preset'))
+})
+
+test('what cannot be done is refused in words: an action without its car, and any after a crash', async ({ open }) => {
+  const page = await open('index.html#reaction-time=1.2&action=at%3D0%3A1%3Anudge%3D1', { reducedMotion: 'reduce' })
+  await ready(page)
+  await page.click('#tab-actions')
+  await page.fill('#do', 'brake=3')
+  await page.press('#do', 'Enter')
+  await page.waitForSelector('#trouble:not([hidden])')
+  const asked = await page.textContent('#trouble li')
+  holds(asked.includes('“brake=3”') && asked.includes('WHO:EFFECT') && !asked.includes('at='), asked)
+  await page.evaluate(() => window.ringroad.seek(200))
+  holds(await page.evaluate(() => window.ringroad.frame.collision), 'no crash')
+  holds((await page.isDisabled('#nudge')) && (await page.isDisabled('#brake')), 'buttons that can only be refused')
+  await page.evaluate(() => document.activeElement.blur())
+  await page.keyboard.press('b')
+  await page.waitForSelector('#trouble:not([hidden])')
+  holds((await page.textContent('#trouble li')).includes('go back'), await page.textContent('#trouble li'))
+  await page.evaluate(() => window.ringroad.seek(5))
+  holds(await page.isEnabled('#brake'), 'a brake that stays shut')
+})
+
 test('a bad file leaves the run as it is; good files open', async ({ open }) => {
   const page = await open('index.html#vehicles=33')
   await ready(page)

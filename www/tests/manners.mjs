@@ -138,6 +138,22 @@ const boxes = () => {
     }
   }
   apart([...document.querySelectorAll('.card, #verdict, [data-view=lab] .top')].filter(seen))
+  apart([...document.querySelectorAll('.stability section')].filter(seen))
+  for (const e of [...document.querySelectorAll('.card :is(button, select, label)')].filter(seen)) {
+    if (!e.closest('[role=tabpanel]') && e.getBoundingClientRect().bottom > e.closest('.card').getBoundingClientRect().bottom) faults.push(`${name(e)} hangs out of its card`)
+  }
+  for (const e of [...document.querySelectorAll('input[type=number]')].filter(seen)) {
+    if (e.scrollWidth > e.clientWidth + 1) faults.push(`${name(e)} cuts ${e.value}`)
+  }
+  // A choice is as wide as its words.
+  for (const select of [...document.querySelectorAll('select')].filter(seen)) {
+    const free = select.cloneNode(true)
+    free.removeAttribute('id')
+    free.style.cssText = 'position: absolute; width: auto; max-width: none'
+    select.after(free)
+    if (free.offsetWidth > select.offsetWidth + 1) faults.push(`${name(select)} is ${select.offsetWidth} wide for ${free.offsetWidth}`)
+    free.remove()
+  }
   apart([...document.querySelectorAll('button, select, input, .time, label')].filter(e => seen(e) && !e.closest('label *') && !e.querySelector('input')))
   for (const axis of document.querySelectorAll('.axis, .ticks')) apart([...axis.children].filter(seen))
   return faults
@@ -164,6 +180,16 @@ for (const [width, height, address] of [
       const tall = await page.evaluate(() => document.documentElement.scrollHeight)
       holds(tall <= height, `the page is ${tall} px tall: something main lies below the fold`)
     }
+    if (width === 1280) {
+      // With the note of every experiment.
+      for (const preset of await page.evaluate(() => window.ringroad.start.presets.map(p => p.name))) {
+        await page.selectOption('#presets', preset)
+        await page.waitForFunction(p => document.querySelector('#presets').value === p && !document.querySelector('#preset').hidden, preset)
+        await page.waitForTimeout(50)
+        const tall = await page.evaluate(() => document.documentElement.scrollHeight)
+        holds(tall <= height, `the page is ${tall} px tall with the note of ${preset}`)
+      }
+    }
     if (address === 'index.html') {
       await page.click('#more-controls')
       for (const tab of await page.locator('[role=tab]').all()) {
@@ -173,3 +199,53 @@ for (const [width, height, address] of [
     }
   })
 }
+
+for (const [width, height] of [
+  [1280, 800],
+  [1024, 700],
+  [390, 844],
+]) {
+  test(`what is said and chosen moves nothing: ${width} × ${height}`, async ({ open }) => {
+    const heights = new Set()
+    // Growing to a crash; fading to the end of the run; a verdict that changes lanes; drivers who differ.
+    for (const link of ['reaction-time=0.75&action=at%3D0%3A1%3Anudge%3D1', 'reaction-time=0.6&until=100&action=at%3D0%3A1%3Anudge%3D1', 'lanes=3&vehicles=60&reaction-time=0.3&start=one-lane', 'reaction-time=0.6&driver=10%25:sensitivity=2']) {
+      const page = await open(`index.html#${link}`, { viewport: { width, height }, reducedMotion: 'reduce' })
+      await ready(page)
+      for (let t = 0; t <= 300; t += 10) {
+        await page.evaluate(t => window.ringroad.seek(t), t)
+        heights.add(await page.evaluate(() => document.querySelector('#verdict').offsetHeight))
+      }
+      const widths = new Set()
+      for (const tab of await page.locator('[role=tab]').all()) {
+        await tab.click()
+        widths.add(await page.evaluate(() => ['speeds', 'more', 'map'].map(id => document.getElementById(id).offsetWidth).join()))
+      }
+      equal(widths.size, 1, `widths of the columns ${[...widths].join('; ')}`)
+    }
+    equal(heights.size, 1, `heights of the verdict ${[...heights]}`)
+  })
+}
+
+test('on the ring the watched car’s name and the way of travel do not cover each other', async ({ open }) => {
+  const page = await open('about:blank', { reducedMotion: 'reduce' })
+  await page.addInitScript(() => {
+    window.written = {}
+    const write = CanvasRenderingContext2D.prototype.fillText
+    CanvasRenderingContext2D.prototype.fillText = function (words, x, y) {
+      if (this.canvas.id === 'ring-canvas') window.written[words] = { x, y, half: this.measureText(words).width / 2 }
+      return write.call(this, words, x, y)
+    }
+  })
+  const address = await open('course.html')
+  await page.goto(address.url().replace('course.html', 'index.html'))
+  await ready(page)
+  for (const car of [0, 1, 2, 3, 47, 48, 49, 25]) {
+    const { name, travel } = await page.evaluate(car => {
+      window.written = {}
+      window.ringroad.watch(car)
+      return { name: window.written[`car ${car + 1}`], travel: window.written['travel →'] }
+    }, car)
+    holds(name && travel, `car ${car + 1}: a label is missing`)
+    holds(Math.abs(name.x - travel.x) >= name.half + travel.half || Math.abs(name.y - travel.y) >= 14, `car ${car + 1}: ${JSON.stringify({ name, travel })}`)
+  }
+})

@@ -1,6 +1,6 @@
 // Where the page runs, and what it says where it cannot.
 import { readFileSync } from 'node:fs'
-import { dist, equal, holds, positions, ready, test } from './harness.mjs'
+import { dist, equal, holds, positions, ready, root, test } from './harness.mjs'
 
 /** The ring moves: positions are read twice. */
 async function moves(at, core) {
@@ -58,6 +58,16 @@ test('moves: both frames of the course page, each with its own link', async ({ o
     states.push(await frame.evaluate(() => document.querySelector('#verdict').dataset.state))
   }
   equal(states.join(), 'stable,unstable', 'verdicts of the two frames')
+})
+
+test('the frame that is shared is as high as README’s', async ({ open }) => {
+  const page = await open('index.html')
+  await ready(page)
+  await page.click('#open-share')
+  const height = text => /<iframe[^>]* height="(\d+)"/.exec(text)?.[1]
+  const own = height(readFileSync(`${root}README.md`, 'utf8'))
+  holds(own, 'no frame in README')
+  equal(height(await page.inputValue('#share-embed')), own, 'height')
 })
 
 test('the laboratory loads nothing of the figures, and says when they cannot be loaded', async ({ open, address }) => {

@@ -276,6 +276,21 @@ test('the stability tab tells in words what it draws', async ({ open }) => {
   holds((await page.textContent('#modes-status')).startsWith('Left the linear regime'), await page.textContent('#modes-status'))
 })
 
+test('theory is drawn while nothing can be measured, and a line says why', async ({ open }) => {
+  const page = await open('index.html#lanes=3&vehicles=60&start=one-lane', still)
+  await ready(page)
+  await page.evaluate(() => window.ringroad.seek(60))
+  await page.waitForFunction(() => document.querySelector('#modes-status').textContent.startsWith('Lane changes go on'))
+  // The curve has a colour of its own.
+  const coloured = await page.$eval('#modes canvas', canvas => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height)
+    let count = 0
+    for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 128 && data[k + 2] - data[k] > 60) count++
+    return count
+  })
+  holds(coloured > 100, `${coloured} pixels of theory`)
+})
+
 for (const [width, height] of [
   [1280, 800],
   [390, 844],

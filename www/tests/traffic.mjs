@@ -173,3 +173,31 @@ test('several lanes: changes happen, ΔN and flow are drawn', async ({ open }) =
   await page.click('#tab-lanes')
   await page.waitForSelector('#panel-lanes canvas')
 })
+
+test('what is set again at the same instant stands once, in the list and in the link', async ({ open }) => {
+  const page = await open('index.html#reaction-time=0.5', { reducedMotion: 'reduce' })
+  await ready(page)
+  await page.evaluate(async () => {
+    await window.ringroad.seek(5)
+    for (const delay of ['0.6', '0.65', '0.7']) await window.ringroad.set('reaction_time', delay)
+    await window.ringroad.act('7:nudge=1')
+    await window.ringroad.act('7:nudge=1')
+    await window.ringroad.act('10%:max-speed=33,brake=3')
+  })
+  await page.click('#tab-actions')
+  const said = await page.locator('ul.actions li > span:nth-child(2)').allTextContents()
+  equal(said.join('; ').replaceAll('\u202f', ' '), 'all cars: reaction time 0.7 s; car 7: nudge by 1 m; car 7: nudge by 1 m; 10% of the cars: top speed 33 m/s, brake for 3 s', 'the list')
+  const link = decodeURIComponent(await page.evaluate(() => location.href))
+  equal(link.match(/reaction-time=[\d.]+/g).join(), 'reaction-time=0.5,reaction-time=0.7', 'the link')
+})
+
+test('the clock has two decimals at the end of a run', async ({ open }) => {
+  const page = await open('index.html#until=20')
+  await ready(page)
+  await page.evaluate(() => {
+    window.ringroad.setPlayback(100)
+    window.ringroad.play()
+  })
+  await page.waitForFunction(() => window.ringroad.frame.finished)
+  equal((await page.textContent('.transport .time')).replace('\u202f', ' '), 't = 20.00 s', 'the clock')
+})

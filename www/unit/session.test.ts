@@ -98,6 +98,21 @@ test('a refusal is told and changes nothing; a cancelled request is silent', asy
   expect(seen.length).toBe(1)
 })
 
+test('a dialog takes what went wrong, and still clears what stood on the page', async () => {
+  const { client, session } = await opened()
+  const [page, dialog, names]: [(readonly string[])[], (readonly string[])[], string[]] = [[], [], []]
+  session.on('trouble', messages => page.push(messages))
+  session.on('opened', name => names.push(name))
+  session.onTrouble = messages => dialog.push(messages)
+  expect(await session.open('file', '{}')).toBe(true)
+  client.refuse = new Refusal('no scenario')
+  expect(await session.open('file', '?')).toBe(false)
+  expect([page, dialog]).toEqual([[[]], [['no scenario']]])
+  client.refuse = null
+  await session.preset('three-lanes')
+  expect(names).toEqual(['', 'three-lanes'])
+})
+
 test('a run that begins anew begins its charts anew', async () => {
   const { client, session } = await opened()
   await session.step()

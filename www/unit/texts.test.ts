@@ -16,9 +16,11 @@ test('numbers have as many digits as mean something', () => {
 })
 
 test('actions are told in words', () => {
-  expect(inWords('at=40:7:brake=3')).toEqual({ when: '40 s', what: 'car 7: brake for 3 s' })
-  expect(inWords('at=30.5:all:reaction-time=0.75').what).toBe('all cars: reaction time 0.75')
-  expect(inWords('at=0:3-7:nudge=-1,brake=2').what).toBe('cars 3-7: nudge by -1 m, brake for 2 s')
+  const parameters = [{ name: 'reaction_time', unit: 's' }, { name: 'frustration_rate', unit: '' }]
+  expect(inWords('at=40:7:brake=3', parameters)).toEqual({ when: '40 s', what: 'car 7: brake for 3 s' })
+  expect(inWords('at=30.5:all:reaction-time=0.75', parameters).what).toBe('all cars: reaction time 0.75\u202fs')
+  expect(inWords('at=1:2:frustration-rate=0.5', parameters).what).toBe('car 2: frustration rate 0.5')
+  expect(inWords('at=0:3-7:nudge=-1,brake=2', parameters).what).toBe('cars 3-7: nudge by -1 m, brake for 2 s')
 })
 
 test('a number field shows what the slider can set, and more digits only where they are', () => {

@@ -47,6 +47,7 @@ export const en = {
 
   trouble: {
     title: 'That did not work',
+    over: 'The run ended in a collision: go back first.',
     dismiss: 'Dismiss',
   },
 
@@ -86,7 +87,7 @@ export const en = {
     large: 'large waves, beyond linear theory',
     crash: (t: number, a: number, b: number): string => `Crash at t = ${unit(exactly(t, 2), 's')}: vehicle ${a} ran into vehicle ${b}.`,
     crashAdvice: 'Go back with the time line, lower the reaction time, or restart.',
-    end: (t: number): string => `The run ends here, at t = ${unit(fixed(t, 2), 's')}.`,
+    end: (t: number): string => `the run ends here, at t = ${unit(fixed(t, 2), 's')}`,
     goOn: 'Go on',
   },
 
@@ -228,7 +229,7 @@ export const en = {
     clear: 'Restart without them',
     clearHint: 'Keeps what belongs to t = 0',
     at: (t: string): string => `${t} s`,
-    vehicle: (who: string): string => (who === 'all' ? 'all cars' : /^\d+$/.test(who) ? `car ${who}` : `cars ${who}`),
+    vehicle: (who: string): string => (who === 'all' ? 'all cars' : /^\d+$/.test(who) ? `car ${who}` : who.endsWith('%') ? `${who} of the cars` : `cars ${who}`),
     brake: (s: string): string => `brake for ${s} s`,
     nudge: (m: string): string => `nudge by ${m} m`,
     add: 'Add',
@@ -329,9 +330,10 @@ export const en = {
     titleAlike: 'If drivers were alike',
     alike: 'The drivers of this ring differ. The plane is for drivers alike: those without an exception.',
     ground: 'What the plane shows',
-    grounds: { regions: 'regions', steps: 'growth rate', continuous: 'continuous growth rate' },
+    grounds: { regions: 'regions', steps: 'in steps', continuous: 'continuous' },
+    rates: 'growth rate',
     every: 'modes',
-    everyHint: 'The critical reaction time of every single mode: of the run’s steps, or of continuous time with the continuous growth rate',
+    everyHint: 'The critical reaction time of every single mode: of the run’s steps, or of continuous time with its growth rate',
     map: (part: number): string =>
       part < 1 ? `Growth rates: ${fixed(100 * part, 0)} % computed.` : 'Colours show the largest growth rate, from blue, fading, to orange, growing.',
     rate: (rate: number): string => (rate > 0 ? `+${rate}` : fixed(rate, 2)),
@@ -359,6 +361,8 @@ export const en = {
     predicted: 'theory',
     measured: 'measured',
     waiting: (t: number): string => `Measuring from t = ${unit(fixed(t, 1), 's')} on …`,
+    changing: 'Lane changes go on: nothing measured.',
+    nothing: 'Nothing is measured yet.',
     quiet: 'No wave to measure: nudge a car.',
     linear: (from: number, bound: number | null): string =>
       `Linear since t = ${unit(fixed(from, 1), 's')}${bound === null ? '' : `, within ±${unit(short(bound), '1/s')}`}.`,

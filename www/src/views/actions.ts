@@ -1,18 +1,21 @@
 // What was done to the traffic, in words; each can be taken back.
 import { el } from '../dom'
+import { unit } from '../format'
 import type { Session } from '../session'
+import type { Parameter } from '../shared/protocol'
 import { text } from '../text'
 
 const t = text.actions
 
-/** `at=40:7:brake=3` in words. */
-export function inWords(action: string): { when: string; what: string } {
+/** `at=40:7:brake=3` in words; units come from the core's table. */
+export function inWords(action: string, parameters: readonly Pick<Parameter, 'name' | 'unit'>[]): { when: string; what: string } {
   const [, at = '', who = '', effects = ''] = /^at=([^:]*):([^:]*):(.*)$/.exec(action) ?? []
   const one = (effect: string): string => {
     const [name = '', value = ''] = effect.split('=')
     if (name === 'brake') return t.brake(value)
     if (name === 'nudge') return t.nudge(value)
-    return `${(text.controls.names[name.replaceAll('-', '_')] ?? name).toLowerCase()} ${value}`
+    const own = name.replaceAll('-', '_')
+    return `${(text.controls.names[own] ?? name).toLowerCase()} ${unit(value, parameters.find(p => p.name === own)?.unit ?? '')}`
   }
   return { when: t.at(at), what: `${t.vehicle(who)}: ${effects.split(',').map(one).join(', ')}` }
 }
@@ -42,7 +45,7 @@ export function actionsView(session: Session): HTMLElement {
     clear.hidden = actions.length === 0
     list.replaceChildren(
       ...actions.map((action, index) => {
-        const { when, what } = inWords(action)
+        const { when, what } = inWords(action, session.start.parameters)
         return el(
           'li',
           {},

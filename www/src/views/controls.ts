@@ -46,7 +46,7 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
     'aria-describedby': `${id}-wrong`,
   })
   const wrong = el('div', { class: 'wrong', id: `${id}-wrong`, role: 'alert', hidden: true })
-  const label = el('label', { for: id, title: parameter.meaning }, name, parameter.symbol ? ' ' : null, parameter.symbol ? el('i', {}, parameter.symbol) : null)
+  const label = el('label', { for: id, title: parameter.meaning }, name, parameter.symbol ? '\u00a0' : null, parameter.symbol ? el('i', {}, parameter.symbol) : null)
   const back = el('button', { type: 'button', class: 'back', 'aria-label': t.reset(name), title: t.reset(name), onclick: () => void commit(String(parameter.default)) }, '↺')
 
   let timer = 0
@@ -139,7 +139,7 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
     'div',
     { class: 'control' },
     label,
-    slider ?? el('span'),
+    slider,
     el('div', { class: 'field' }, number, el('span', { 'aria-hidden': 'true' }, parameter.unit)),
     back,
     wrong,
@@ -172,6 +172,9 @@ export function controlsView(session: Session, preview: (v: Verdict | null) => v
   }
   session.on('watch', name)
   session.on('snapshot', name)
+  session.on('frame', ({ collision }) => {
+    nudge.disabled = brake.disabled = collision !== null
+  })
   const others = el(
     'div',
     { id: 'others', hidden: true },

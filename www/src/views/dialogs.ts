@@ -50,7 +50,7 @@ export function shareDialog(session: Session, address: () => string): HTMLDialog
     const file = base.split('/').pop() ?? ''
     const one = file === 'ringroad.html'
     const frame = one ? `${base}#view=embed${hash === '' ? '' : `&${hash}`}` : `${base.slice(0, base.length - file.length)}embed.html${hash === '' ? '' : `#${hash}`}`
-    embed.field.value = `<iframe src="${frame.replaceAll('&', '&amp;')}" width="100%" height="480" style="border:0" allowfullscreen title="Ringroad"></iframe>`
+    embed.field.value = `<iframe src="${frame.replaceAll('&', '&amp;')}" width="100%" height="520" style="border:0" allowfullscreen title="Ringroad"></iframe>`
   }
   element.addEventListener('toggle', fill)
   session.on('snapshot', fill)

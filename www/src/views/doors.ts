@@ -14,6 +14,7 @@ export interface Doors {
 export function doors(session: Session, place: HTMLElement): Doors {
   let figures: HTMLElement | null = null
   let loaded = false
+  let left = false
   const open = () => document.body.dataset.view === 'figures'
   const link = el('a', { class: 'button', id: 'open-figures', href: '#view=figures' }, text.header.figures)
   link.addEventListener('click', event => {
@@ -25,7 +26,13 @@ export function doors(session: Session, place: HTMLElement): Doors {
     if (view) document.body.dataset.view = view
     link.textContent = open() ? text.header.lab : text.header.figures
     link.href = open() ? '#view=lab' : '#view=figures'
-    if (!open()) return
+    if (!open()) {
+      // The run goes on as it was left.
+      if (left) session.play()
+      left = false
+      return
+    }
+    left ||= session.playing
     session.pause()
     figures ??= place.appendChild(el('main', { id: 'figures' }))
     if (loaded) return

@@ -29,19 +29,20 @@ export function headerView(session: Session, dialogs: { share: HTMLDialogElement
       id: 'presets',
       'aria-label': t.presets,
       onchange: async () => {
-        const preset = session.start.presets.find(p => p.name === presets.value)
-        if (!preset) return
-        if (await session.preset(preset.name)) {
-          words.replaceChildren(el('strong', {}, `${preset.title}. `), `${preset.notice} `, el('em', {}, `${t.next} `), preset.next)
-          note.hidden = false
-          session.play()
-        }
-        presets.value = ''
+        if (presets.value !== '' && (await session.preset(presets.value))) session.play()
+        presets.value = opened
       },
     },
     el('option', { value: '' }, t.choose),
     ...session.start.presets.map(p => el('option', { value: p.name }, p.title)),
   )
+  let opened = ''
+  session.on('opened', name => {
+    presets.value = opened = name
+    const preset = session.start.presets.find(p => p.name === name)
+    note.hidden = !preset
+    if (preset) words.replaceChildren(el('strong', {}, `${preset.title}. `), `${preset.notice} `, el('em', {}, `${t.next} `), preset.next)
+  })
   const open = (dialog: HTMLDialogElement) => () => dialog.showModal()
   const full = () => void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen()).catch(() => {})
   const element = el(

@@ -7,8 +7,9 @@ import { axes, frame, roundSteps, say, ticks, word } from './axes'
 const t = text.modes
 
 /** What the run has to say of the mode that theory calls the fastest. */
-function status(measured: ModesGrowth, alike: boolean, fastest: number | null, time: number): string {
+function status(measured: ModesGrowth, alike: boolean, fastest: number | null, time: number, lanes: number): string {
   if (fastest === null) return ''
+  if (measured.modes.length === 0 && time >= measured.starts) return lanes > 1 ? t.changing : t.nothing
   const lead = measured.modes.find(m => m.mode === fastest)
   if (!lead) return time < measured.starts ? t.waiting(measured.starts) : ''
   if (lead.from === null || lead.to === null) {
@@ -34,14 +35,15 @@ export function modesView() {
   )
   let theory: Roots | null = null
   let measured: ModesGrowth | null = null
+  let leader = 1
   const redraw = drawing(canvas, (c, w, h) => {
     if (!theory || !measured) return
     if (theory.modes.length === 0) {
       say(c, t.none, w, h)
       return
     }
-    if (measured.modes.length === 0) return
-    const count = measured.modes.length
+    // As many as the core would look at.
+    const count = measured.modes.length || Math.min(Math.max(...theory.modes), Math.min(40, Math.max(10, 2 * leader)))
     const predicted = theory.modes.flatMap((mode, k) => {
       const rate = theory!.growth_per_s[k]
       return mode <= count && typeof rate === 'number' ? [{ mode, rate }] : []
@@ -107,13 +109,14 @@ export function modesView() {
   return {
     element,
     redraw,
-    show(roots: Roots, growth: ModesGrowth, fastest: number | null, time: number) {
+    show(roots: Roots, growth: ModesGrowth, fastest: number | null, time: number, lanes: number) {
       theory = roots
       measured = growth
+      leader = fastest ?? 1
       const alike = roots.equal_drivers
       const list = growth.modes.flatMap(m => (m.rate === null ? [] : [t.one(m.mode, m.rate, m.predicted)]))
       canvas.setAttribute('aria-label', t.describe(list.join('; ')))
-      const words = status(growth, alike, fastest, time)
+      const words = status(growth, alike, fastest, time, lanes)
       if (said.textContent !== words) said.textContent = words
       redraw()
     },

@@ -36,10 +36,12 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
   })
   const lines = el('div')
   const title = el('h3', { id: 'plane-title' }, t.title)
+  const option = (value: keyof typeof t.grounds) => el('option', { value }, t.grounds[value])
   const ground = el(
     'select',
     { id: 'plane-ground', class: 'small-select', 'aria-label': t.ground, onchange: () => show() },
-    ...(['regions', 'steps', 'continuous'] as const).map(value => el('option', { value }, t.grounds[value])),
+    option('regions'),
+    el('optgroup', { label: t.rates }, option('steps'), option('continuous')),
   )
   const every = el('input', { id: 'plane-modes', type: 'checkbox', onchange: () => show() })
   const element = el(

@@ -188,5 +188,9 @@ export function readable(name: string, picture: SVGSVGElement, fields: readonly 
     },
     picture,
   )
+  // A picture wider than the screen fades where it goes on.
+  const more = () => void plot.classList.toggle('more', plot.scrollLeft + plot.clientWidth < plot.scrollWidth - 1)
+  plot.addEventListener('scroll', more)
+  new ResizeObserver(more).observe(plot)
   return [plot, reading, told]
 }

@@ -78,7 +78,7 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
     c.setLineDash([])
     const metre = (2 * Math.PI * (outer - width / 2)) / session.snapshot.scenario.length
     const many = frame.positions.length > POINTS
-        for (let j = 0; j < frame.positions.length; j++) {
+    for (let j = 0; j < frame.positions.length; j++) {
       const lane = frame.lanes[j]!
       const away = lane - drawn[j]!
       if (away !== 0) {
@@ -125,21 +125,24 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
       c.restore()
     }
     const inner = outer - width * lanes
+    kmh.hidden = density.hidden = inner < 75
     if (inner > 95) {
+      c.textAlign = 'center'
+      c.textBaseline = 'middle'
+      const r = inner - 14
+      let travel: number | null = cy - r
+      if (!many && session.watched < frame.positions.length) {
+        const a = angle(frame.positions[session.watched]!)
+        const [x, y] = [(r - 8 * Math.abs(Math.cos(a))) * Math.cos(a), r * Math.sin(a)]
+        c.fillStyle = colours.ink
+        c.font = '600 13px system-ui, sans-serif'
+        c.fillText(t.car(session.watched + 1), cx + x, cy + y)
+        // The watched car's name has the place at the top; below it there is room on a large ring only.
+        if (Math.abs(x) < 60 && y < 17 - r) travel = inner > 108 ? cy + y + 17 : null
+      }
       c.fillStyle = colours.line
       c.font = '13px system-ui, sans-serif'
-      c.textAlign = 'center'
-      c.textBaseline = 'middle'
-      c.fillText(t.travel, cx, cy - inner + 14)
-    }
-    if (!many && inner > 95 && session.watched < frame.positions.length) {
-      const a = angle(frame.positions[session.watched]!)
-      const r = outer - width * lanes - 14
-      c.fillStyle = colours.ink
-      c.font = '600 13px system-ui, sans-serif'
-      c.textAlign = 'center'
-      c.textBaseline = 'middle'
-      c.fillText(t.car(session.watched + 1), cx + (r - 8 * Math.abs(Math.cos(a))) * Math.cos(a), cy + r * Math.sin(a))
+      if (travel !== null) c.fillText(t.travel, cx, travel)
     }
     if (gliding && !session.playing) requestAnimationFrame(redraw)
   })

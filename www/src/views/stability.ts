@@ -22,7 +22,7 @@ export function stabilityView(session: Session, preview: (v: Verdict | null) => 
   let theory: Roots | null = null
   let measured: ModesGrowth | null = null
   const showModes = () => {
-    if (theory && measured && session.frame) modes.show(theory, measured, session.snapshot.verdict.mode, session.frame.time)
+    if (theory && measured && session.frame) modes.show(theory, measured, session.snapshot.verdict.mode, session.frame.time, session.snapshot.scenario.lanes)
   }
   // Theory is asked when what it depends on has changed, and only for eyes that see it.
   const consider = async () => {

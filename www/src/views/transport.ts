@@ -65,7 +65,7 @@ export function transportView(session: Session): HTMLElement {
       scale()
     }
     if (!dragging) {
-      time.textContent = t.time(frame.time, session.playback < 1 || !session.playing ? 2 : 1)
+      time.textContent = t.time(frame.time, session.playback < 1 || !session.playing || frame.finished ? 2 : 1)
       line.value = String(frame.time)
       line.setAttribute('aria-valuetext', t.lineValue(frame.time))
     }

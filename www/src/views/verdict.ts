@@ -12,7 +12,7 @@ export function verdictView(session: Session): { element: HTMLElement; preview: 
   const sentence = el('span', { class: 'sentence' })
   const measured = el('span', { class: 'measured' })
   const more = el('button', { type: 'button', hidden: true, onclick: () => void session.extend() }, t.goOn)
-  const element = el('div', { id: 'verdict', class: 'message' }, mark, sentence, measured, more)
+  const element = el('div', { id: 'verdict', class: 'message' }, mark, el('div', {}, sentence, measured), more)
   let preview: Verdict | null = null
 
   const put = (node: HTMLElement, value: string) => {
@@ -28,8 +28,9 @@ export function verdictView(session: Session): { element: HTMLElement; preview: 
     const lane = snapshot.scenario.lanes > 1 ? `${t.lane(v.lane)} ` : ''
     const theory = `${lane}${t.critical(v)} ${t.wave(v)}`
     const over = frame?.finished && !crash
-    put(sentence, crash && !preview ? `${t.crash(crash.time, crash.behind + 1, crash.ahead + 1)} ${t.crashAdvice}` : over ? `${theory} ${t.end(frame.time)}` : theory)
-    put(measured, preview || crash || v.stable === null ? '' : frame?.growth ? t.measured(frame.growth, frame.large) : frame?.large ? t.large : t.measuring)
+    put(sentence, crash && !preview ? `${t.crash(crash.time, crash.behind + 1, crash.ahead + 1)} ${t.crashAdvice}` : theory)
+    const growth = preview || crash || v.stable === null ? '' : frame?.growth ? t.measured(frame.growth, frame.large) : frame?.large ? t.large : over ? '' : t.measuring
+    put(measured, [growth, over ? t.end(frame.time) : ''].filter(part => part !== '').join('; '))
     more.hidden = !over
   }
   session.on('snapshot', () => {
