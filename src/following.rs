@@ -529,7 +529,9 @@ mod tests {
     use super::*;
     use crate::random::{Generator, Stream};
 
-    const OFFSET: [f64; CHUNK] = [20.0; CHUNK];
+    /// Whole chunks, however long one is.
+    const COUNT: usize = 8;
+    const OFFSET: [f64; COUNT] = [20.0; COUNT];
 
     /// Over the corners of what the table of parameters allows: headways that wander as far as a step can take them,
     /// a million steps, moves that both polynomials serve and moves that none does.
@@ -541,9 +543,9 @@ mod tests {
             for sensitivity in [0.01, 1.0, 20.0] {
                 for (dt, steps) in [(0.001, 1_000_000_u64), (0.01, 100_000), (0.5, 10_000)] {
                     for share in [1.0, 0.1] {
-                        let drivers = [Driver { max_speed, sensitivity, ..Driver::default() }; CHUNK];
-                        let mut following = Following::new(&drivers, CHUNK);
-                        let mut gap = [0.0; CHUNK];
+                        let drivers = [Driver { max_speed, sensitivity, ..Driver::default() }; COUNT];
+                        let mut following = Following::new(&drivers, COUNT);
+                        let mut gap = [0.0; COUNT];
                         for step in 0..steps {
                             following.respond_to_gaps(&gap, &OFFSET, step.is_multiple_of(REFRESH));
                             if step % REFRESH == REFRESH - 1 {
@@ -584,8 +586,8 @@ mod tests {
     #[test]
     fn a_jump_is_evaluated_in_full_and_does_not_touch_the_others() {
         let driver = Driver::default();
-        let mut following = Following::new(&[driver; CHUNK], CHUNK);
-        let mut gap = [0.0; CHUNK];
+        let mut following = Following::new(&[driver; COUNT], COUNT);
+        let mut gap = [0.0; COUNT];
         following.respond_to_gaps(&gap, &OFFSET, true);
         gap[3] = -12.0;
         gap[4] = 1e-9;
@@ -605,15 +607,15 @@ mod tests {
     #[test]
     fn another_leader_is_as_good_as_a_start() {
         let driver = Driver { sensitivity: 1.3, ..Driver::default() };
-        let mut one = Following::new(&[driver; 3], CHUNK);
-        one.respond_to_gaps(&[0.0; CHUNK], &OFFSET, true);
+        let mut one = Following::new(&[driver; 3], COUNT);
+        one.respond_to_gaps(&[0.0; COUNT], &OFFSET, true);
         one.respond_to_another(1, 0.3, 17.0);
         let mut offset = OFFSET;
-        let mut gap = [0.0; CHUNK];
+        let mut gap = [0.0; COUNT];
         for j in [1, 4, 7] {
             (offset[j], gap[j]) = (17.0, 0.3);
         }
-        let mut all = Following::new(&[driver; 3], CHUNK);
+        let mut all = Following::new(&[driver; 3], COUNT);
         all.respond_to_gaps(&gap, &offset, true);
         assert_eq!(one.speeds(), all.speeds(), "images included");
     }
@@ -623,7 +625,7 @@ mod tests {
     fn a_step_at_once_gives_the_same_bits_as_one_after_the_other() {
         let mut generator = Generator::new(5, Stream::Start);
         for differ in [false, true] {
-            for n in [2, 5, CHUNK, 2 * CHUNK + 3] {
+            for n in [2, 5, COUNT, 2 * COUNT + 3] {
                 let padded = n.next_multiple_of(CHUNK);
                 let mut drivers = vec![Driver::default(); n];
                 if differ {
