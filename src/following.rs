@@ -26,7 +26,7 @@ use crate::exp::{all_within, exp_within};
 use crate::history::{History, images};
 #[cfg(doc)]
 use crate::reaction::Delays;
-use crate::vector::{CHUNK, Chunk, Extremes, Real, Width, chunks, chunks_mut, kernel};
+use crate::vector::{Aligned, CHUNK, Chunk, Extremes, Real, Width, chunks, chunks_mut, kernel};
 
 /// Steps between full evaluations of all shortfalls.
 pub const REFRESH: u64 = 64;
@@ -62,7 +62,7 @@ pub(crate) struct Scene<'a> {
     /// Displacements (m) as they were each of a few delays ago.
     pub(crate) seen: &'a [&'a [f64]],
     /// Who sees which; see [`Delays::chosen`].
-    pub(crate) chosen: &'a [Vec<f64>],
+    pub(crate) chosen: &'a [Aligned],
 }
 
 /// Gaps, shortfalls and speeds of all vehicles; padded to whole chunks.
@@ -78,16 +78,16 @@ pub struct Following {
 
 #[derive(Clone, Debug)]
 struct State {
-    gap: Vec<f64>,
-    shortfall: Vec<f64>,
-    speed: Vec<f64>,
+    gap: Aligned,
+    shortfall: Aligned,
+    speed: Aligned,
 }
 
 #[derive(Clone, Debug)]
 struct Laws {
-    max_speed: Vec<f64>,
-    rate: Vec<f64>,
-    min_headway: Vec<f64>,
+    max_speed: Aligned,
+    rate: Aligned,
+    min_headway: Aligned,
 }
 
 /// The numbers that most steps need, ready in registers.
@@ -375,7 +375,7 @@ kernel! {
 impl Following {
     /// For these drivers, in arrays padded to `padded` numbers; no shortfall is valid yet.
     pub fn new(drivers: &[Driver], padded: usize) -> Self {
-        let filled = |value| vec![value; padded];
+        let filled = |value| Aligned::filled(value, padded);
         let mut following = Self {
             width: Width::widest(),
             vehicles: drivers.len(),
@@ -636,8 +636,10 @@ mod tests {
                 let offset: Vec<f64> = (0..padded).map(|j| image(&offset, j)).collect();
                 let (mut once, mut twice) =
                     (Following::new(&drivers, padded), Following::new(&drivers, padded));
-                let mask: Vec<f64> =
-                    (0..padded).map(|j| if j % n == 1 { f64::from_bits(u64::MAX) } else { 0.0 }).collect();
+                let mut mask = Aligned::filled(0.0, padded);
+                for j in (1..padded).step_by(n) {
+                    mask[j] = f64::from_bits(u64::MAX);
+                }
                 let mut old = vec![0.0; padded + CHUNK];
                 for step in 0..200 {
                     let mut rows = [(); 2].map(|()| {

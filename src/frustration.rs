@@ -7,7 +7,7 @@
 use crate::history::padded;
 use crate::random::Generator;
 use crate::ring::AllBeside;
-use crate::vector::{CHUNK, Chunk, Real, chunks, chunks_mut, kernel};
+use crate::vector::{Aligned, CHUNK, Chunk, Real, chunks, chunks_mut, kernel};
 use std::f64::consts::FRAC_2_PI;
 
 /// P(φ), the probability of an attempt within one second.
@@ -141,7 +141,7 @@ const BOUND: f64 = 0.703_42;
 /// literal one, and a step costs a multiplication and a comparison.
 #[derive(Clone, Debug)]
 pub struct ExponentialClock {
-    left: Vec<f64>,
+    left: Aligned,
     bound_per_step: f64,
     time_step: f64,
     generator: Generator,
@@ -150,8 +150,8 @@ pub struct ExponentialClock {
 
 impl Sampler for ExponentialClock {
     fn new(vehicles: usize, time_step: f64, mut generator: Generator) -> Self {
-        let mut left: Vec<f64> = (0..vehicles).map(|_| generator.exponential()).collect();
-        left.resize(padded(vehicles), f64::INFINITY);
+        let mut left = Aligned::filled(f64::INFINITY, padded(vehicles));
+        left[..vehicles].fill_with(|| generator.exponential());
         Self { left, bound_per_step: BOUND * time_step, time_step, generator, steps: Squeeze::new() }
     }
 

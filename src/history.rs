@@ -4,12 +4,12 @@
 //! A displacement is the distance driven since t = 0 plus the nudges since then. Rows lie in a ring buffer, vehicles
 //! side by side in a row, so that one step reads and writes memory in order.
 
-use crate::vector::CHUNK;
+use crate::vector::{Aligned, CHUNK};
 
 /// Displacements (m) by step and vehicle.
 #[derive(Clone, Debug)]
 pub struct History {
-    data: Vec<f64>,
+    data: Aligned,
     vehicles: usize,
     /// The vehicle whose image comes after the last whole chunk.
     closing: usize,
@@ -28,7 +28,7 @@ impl History {
         let width = padded(vehicles) + CHUNK;
         let rows = rows_for(steps);
         let closing = padded(vehicles) % vehicles;
-        Self { data: vec![0.0; width * rows], vehicles, closing, width, rows, head: 0 }
+        Self { data: Aligned::filled(0.0, width * rows), vehicles, closing, width, rows, head: 0 }
     }
 
     /// The row of `delay` steps ago.
@@ -109,7 +109,7 @@ impl History {
         if rows == self.rows {
             return;
         }
-        let mut data = vec![0.0; self.width * rows];
+        let mut data = Aligned::filled(0.0, self.width * rows);
         let kept = rows.min(self.rows);
         for delay in 0..kept {
             let target = (kept - 1 - delay) * self.width;
@@ -120,7 +120,7 @@ impl History {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.data.capacity() * size_of::<f64>()
+        self.data.bytes()
     }
 
     #[inline]

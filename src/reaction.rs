@@ -5,6 +5,7 @@
 //! was seen.
 
 use crate::history::{images, padded};
+use crate::vector::Aligned;
 
 /// Delays of all drivers, in steps.
 #[derive(Clone, Debug)]
@@ -19,7 +20,7 @@ pub struct Delays {
     /// The different delays in force, where they are few; else none.
     few: Vec<usize>,
     /// For each of them but the first: who has it; see [`Delays::chosen`].
-    chosen: Vec<Vec<f64>>,
+    chosen: Vec<Aligned>,
 }
 
 /// So many different delays are few.
@@ -33,7 +34,7 @@ impl Delays {
     pub fn new(target: Vec<u32>) -> Self {
         let delay = vec![0; padded(target.len())];
         let cap = vec![0; target.len()];
-        let chosen = vec![vec![0.0; padded(target.len())]; FEW - 1];
+        let chosen = vec![Aligned::filled(0.0, padded(target.len())); FEW - 1];
         let mut delays = Self { target, cap, delay, settled: false, few: Vec::with_capacity(FEW), chosen };
         delays.find_few();
         delays
@@ -100,7 +101,7 @@ impl Delays {
 
     /// For each of [`Self::few`] but the first a mask over all drivers (padded): all bits set for those who have it.
     #[inline]
-    pub fn chosen(&self) -> &[Vec<f64>] {
+    pub(crate) fn chosen(&self) -> &[Aligned] {
         &self.chosen
     }
 

@@ -15,7 +15,7 @@
 use crate::history::{images, padded};
 use crate::random::{Generator, Stream};
 use crate::scenario::{Scenario, Start};
-use crate::vector::{CHUNK, Width};
+use crate::vector::{Aligned, CHUNK, Width};
 use crate::watch::{NEAR, Odometer, Watch};
 
 /// An adjacent lane: towards lane 1, or away from it.
@@ -79,7 +79,7 @@ pub(crate) struct AllBeside {
     /// The vehicles.
     pub(crate) vehicles: Vec<u32>,
     /// Their offsets, m.
-    pub(crate) offsets: Vec<f64>,
+    pub(crate) offsets: Aligned,
 }
 
 impl AllBeside {
@@ -87,7 +87,7 @@ impl AllBeside {
         let none = (0..padded(vehicles)).map(Beside::no_lane);
         Self {
             vehicles: none.clone().map(|b| b.vehicle).collect(),
-            offsets: none.map(|b| b.offset).collect(),
+            offsets: Aligned::of(&none.map(|b| b.offset).collect::<Vec<_>>()),
         }
     }
 }

@@ -29,7 +29,7 @@ use crate::random::{Generator, Stream};
 use crate::reaction::{Delays, FEW};
 use crate::ring::{Pass, Ring, Side};
 use crate::scenario::{Scenario, assign, check_min_headway};
-use crate::vector::{CHUNK, Width};
+use crate::vector::{Aligned, CHUNK, Width};
 use crate::watch::Odometer;
 use std::ops::Range;
 
@@ -83,14 +83,14 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     delays: Delays,
     following: Following,
     /// Gaps in the making.
-    seen: Vec<f64>,
+    seen: Aligned,
     /// Sum of the nudges since the start, m.
     nudged: Vec<f64>,
     /// Braked vehicles and the step in which they are released.
     braked: Vec<(usize, u64)>,
-    frustration: Vec<f64>,
+    frustration: Aligned,
     /// r·dt of every driver (padded, as φ is).
-    frustration_step: Vec<f64>,
+    frustration_step: Aligned,
     lane_changes: Vec<u32>,
     sampler: S,
     passes: Vec<Pass>,
@@ -137,11 +137,11 @@ impl<S: Sampler> Simulation<S> {
             ring: Ring::new(scenario),
             history: History::new(n, delays.longest_target()),
             history_is_long: false,
-            seen: vec![0.0; padded(n)],
+            seen: Aligned::filled(0.0, padded(n)),
             nudged: vec![0.0; n],
             braked: Vec::new(),
-            frustration: vec![0.0; padded(n)],
-            frustration_step: vec![0.0; padded(n)],
+            frustration: Aligned::filled(0.0, padded(n)),
+            frustration_step: Aligned::filled(0.0, padded(n)),
             lane_changes: vec![0; n],
             sampler: S::new(n, scenario.time_step, Generator::new(scenario.seed, Stream::LaneChanging)),
             passes: Vec::with_capacity(events),

@@ -5,7 +5,7 @@
 //! the page's code is built for size, they are vectors of 128 bits by name. All versions do the same operations on
 //! each number, each rounding once, so that results do not depend on the width: a test holds one against the other.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Deref, DerefMut, Mul, Sub};
 
 /// Numbers that a kernel handles at a time: a whole number of vectors of every width. In WebAssembly, where there is one
 /// width and there are only sixteen registers, two vectors.
@@ -348,6 +348,60 @@ impl Chunk {
         let mut out = [0.0; CHUNK];
         self.store(&mut out);
         out
+    }
+}
+
+/// Numbers that begin where a line of the cache does, so that no chunk lies across two lines.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Aligned {
+    lines: Vec<Line>,
+    len: usize,
+}
+
+#[repr(align(64))]
+#[derive(Clone, Copy, Debug)]
+#[expect(dead_code, reason = "read as the numbers of a slice")]
+struct Line([f64; Line::LEN]);
+
+impl Line {
+    const LEN: usize = 8;
+}
+
+impl Aligned {
+    /// So many of the same number.
+    pub(crate) fn filled(value: f64, len: usize) -> Self {
+        Self { lines: vec![Line([value; Line::LEN]); len.div_ceil(Line::LEN)], len }
+    }
+
+    /// These numbers.
+    pub(crate) fn of(numbers: &[f64]) -> Self {
+        let mut aligned = Self::filled(0.0, numbers.len());
+        aligned.copy_from_slice(numbers);
+        aligned
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> usize {
+        self.lines.capacity() * size_of::<Line>()
+    }
+}
+
+impl Deref for Aligned {
+    type Target = [f64];
+    #[inline(always)]
+    #[allow(unsafe_code)]
+    fn deref(&self) -> &[f64] {
+        // SAFETY: lines are arrays of numbers, one after the other, and there are at least `len` numbers in them.
+        unsafe { std::slice::from_raw_parts(self.lines.as_ptr().cast(), self.len) }
+    }
+}
+
+impl DerefMut for Aligned {
+    #[inline(always)]
+    #[allow(unsafe_code)]
+    fn deref_mut(&mut self) -> &mut [f64] {
+        // SAFETY: as in `deref`.
+        unsafe { std::slice::from_raw_parts_mut(self.lines.as_mut_ptr().cast(), self.len) }
     }
 }
 

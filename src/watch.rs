@@ -6,7 +6,7 @@
 //! comparisons, all vehicles at once.
 
 use crate::history::padded;
-use crate::vector::{CHUNK, Chunk, Width, chunks, kernel};
+use crate::vector::{Aligned, CHUNK, Chunk, Width, chunks, kernel};
 
 /// How far vehicles may have come, summed over the steps, m.
 #[derive(Clone, Copy, Debug, Default)]
@@ -53,9 +53,9 @@ pub(crate) struct Watch {
     width: Width,
     vehicles: usize,
     /// Due as soon as the vehicle has gone so far ahead of the slowest, m.
-    ahead: Vec<f64>,
+    ahead: Aligned,
     /// Due as soon as the fastest has gone so far ahead of the vehicle, m.
-    behind: Vec<f64>,
+    behind: Aligned,
     /// Who is due, a bit a vehicle.
     due: Vec<u8>,
 }
@@ -75,7 +75,7 @@ kernel! {
 impl Watch {
     /// For so many vehicles, all due.
     pub(crate) fn new(vehicles: usize) -> Self {
-        let never = vec![f64::INFINITY; padded(vehicles)];
+        let never = Aligned::filled(f64::INFINITY, padded(vehicles));
         let due = vec![0; padded(vehicles) / CHUNK];
         let mut watch = Self { width: Width::widest(), vehicles, ahead: never.clone(), behind: never, due };
         watch.look_at_all();
