@@ -16,6 +16,8 @@ PORT ?= 4173
 # Debian's browser and its driver; only `make test` and `make bench-web` need them.
 export CHROMIUM ?= /usr/bin/chromium
 export CHROMEDRIVER ?= /usr/bin/chromedriver
+# One place for what cargo builds, whatever the environment says.
+export CARGO_TARGET_DIR := $(CURDIR)/target
 # The command that the tests of the page and of the CSV hold against the browser and pandas.
 export RINGROAD := $(CURDIR)/target/release/ringroad
 # Seconds that a test in the browser may take (the runner's default is 20).

@@ -135,9 +135,12 @@ mod cases {
         });
     }
 
+    pub(crate) fn settings() -> Criterion {
+        Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3))
+    }
+
     pub(crate) fn all(c: &mut Criterion) {
         let mut group = c.benchmark_group("step");
-        group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
         let cases = cases();
         for (mark, width) in [("", Width::widest()), (", 128 bits", Width::NARROWEST)] {
             for Case { name, warm_up, scenario } in &cases {
@@ -195,6 +198,11 @@ mod cases {
 }
 
 #[cfg(not(target_arch = "wasm32"))]
-criterion::criterion_group!(benches, cases::all);
+criterion::criterion_group! {
+    name = benches;
+    // What the command line says goes before this.
+    config = cases::settings();
+    targets = cases::all
+}
 #[cfg(not(target_arch = "wasm32"))]
 criterion::criterion_main!(benches);

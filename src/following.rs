@@ -17,7 +17,7 @@
 //!
 //! **Accuracy.** One multiplication by a polynomial rounds like w·(1 + ε) with |ε| under 5·10⁻¹⁶, the
 //! rounding of a itself included; every [`REFRESH`] steps all shortfalls are evaluated in full. So w stays within
-//! 64·5·10⁻¹⁶ ≈ 3·10⁻¹⁴ of V times the exponential, for ever, over the whole range of the parameters, and v with it.
+//! 64·5·10⁻¹⁶ = 3.2·10⁻¹⁴ of V times the exponential, relatively, for ever, over the whole range of the parameters, and v with it.
 //! Arguments of the full evaluation are held to ±700: w then means "stand still" (V·e^700) or "as fast as possible"
 //! (V·e^−700) and stays so through [`REFRESH`] steps of at most 2⁻⁶ each.
 
@@ -65,7 +65,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) chosen: &'a [Aligned],
 }
 
-/// Gaps, shortfalls and speeds of all vehicles; padded to whole chunks.
+/// Gaps, shortfalls and speeds of all vehicles; padded to whole chunks with vehicles again, see [`images`].
 #[derive(Clone, Debug)]
 pub struct Following {
     width: Width,
@@ -244,7 +244,7 @@ fn respond_rarely(
 
 kernel! {
     /// A whole step where the leader of j is j + 1 and all have one law: positions from `old` to `new`, then gaps in the row
-    /// `seen`, which is not `new`, then speeds. `extremes`: see [`drive`].
+    /// `seen`, which is not `new`, then speeds. `extremes` gets the smallest and the largest speed before.
     fn advance_alike(
         old: &[f64], seen: &[f64], offset: &[f64], law: Law, dt: f64, refresh: bool,
         state: &mut State, new: &mut [f64], extremes: &mut (f64, f64),
@@ -299,10 +299,10 @@ kernel! {
 const BLOCK: usize = 512 / CHUNK;
 
 kernel! {
-    /// As many steps of [`advance_alike`] with one delay, block by block: within the delay nobody sees what is
-    /// done meanwhile.
+    /// `steps` times [`advance_alike`], with one `delay` for all, after step `first`, block by block: within the delay
+    /// nobody sees what is done meanwhile.
     fn drive_on(
-        history: &mut History, delay: usize, first: u64, steps: usize, offset: &[f64], law: Law, dt: f64,
+        history: &mut History, delay: usize, offset: &[f64], law: Law, dt: f64, first: u64, steps: usize,
         state: &mut State,
     ) {
         let (law, dt) = (ChunkLaw::common(law), Chunk::splat(dt));
@@ -477,7 +477,7 @@ impl Following {
     ) -> bool {
         let Some(law) = self.common else { return false };
         debug_assert!(steps <= delay, "{steps} steps within a delay of {delay}");
-        drive_on(self.width, history, delay, first, steps, offset, law, dt, &mut self.state);
+        drive_on(self.width, history, delay, offset, law, dt, first, steps, &mut self.state);
         history.catch_up(steps);
         true
     }

@@ -103,8 +103,8 @@ pub trait Sampler: Clone {
     fn attempts(&mut self, vehicle: usize, frustration: f64) -> bool;
     /// Which of two equally good lanes.
     fn coin(&mut self) -> bool;
-    /// For each vehicle (padded) an amount that must stay above 0, and what a unit of φ takes off it in a step: nobody
-    /// attempts as long as it does. None if this sampler has no such thing.
+    /// For each vehicle (padded) an amount, and what a unit of φ takes off it in a step: nobody attempts whose amount
+    /// has not fallen below 0. None if this sampler has no such thing.
     fn clocks(&mut self) -> Option<(&mut [f64], f64)> {
         None
     }

@@ -22,7 +22,7 @@ pub struct History {
 }
 
 impl History {
-    /// All displacements 0, with room to look back `steps` steps, and one step more in a step in which that grows.
+    /// All displacements 0, with room to look back `steps` steps; see [`rows_for`].
     pub fn new(vehicles: usize, steps: usize) -> Self {
         // One more than a whole number of chunks: see `close`.
         let width = padded(vehicles) + CHUNK;

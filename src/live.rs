@@ -459,7 +459,7 @@ impl Live {
         let mut scenario = self.simulation.scenario().clone();
         // The step in which vehicles touch belongs to the run.
         let steps = self.simulation.step_index() + u64::from(self.simulation.collision().is_some());
-        scenario.until = steps as f64 * scenario.time_step;
+        scenario.until = scenario.time_of(steps);
         scenario
     }
 

@@ -209,8 +209,17 @@ impl Provenance {
 
     /// Reads the header of a file that [`Table::to_csv`] wrote.
     pub fn from_csv(text: &str) -> Result<Self, Invalid> {
+        let version = Self::version_of(text)?.to_owned();
+        if header_line(text, PLAN).is_ok() {
+            let allowed =
+                "the table of one run; a batch is repeated by `ringroad batch --plan` with this file";
+            return Err(Invalid::new("file", "the table of a batch", allowed));
+        }
+        if header_line(text, COMPUTED).is_ok() {
+            return Err(Invalid::new("file", "a table that theory computed", "the table of one run"));
+        }
         Ok(Self {
-            version: Self::version_of(text)?.to_owned(),
+            version,
             scenario: Scenario::from_json(header_line(text, SCENARIO)?)
                 .map_err(|e| e.within("CSV header, scenario"))?,
             measurement: Measurement::from_json(header_line(text, MEASUREMENT)?)

@@ -15,9 +15,9 @@ pub const CHUNK: usize = if cfg!(all(target_arch = "wasm32", target_feature = "s
 pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// The same number everywhere.
     fn all(value: f64) -> Self;
-    /// `other` where it is smaller; NaN stays.
+    /// `other` where it is smaller; NaN in `self` stays.
     fn least(self, other: Self) -> Self;
-    /// `other` where it is larger; NaN stays.
+    /// `other` where it is larger; NaN in `self` stays.
     fn most(self, other: Self) -> Self;
     /// Times 2^k, for the whole number k in the lowest 12 bits of `exponent`.
     fn times_power_of_two(self, exponent: Self) -> Self;
@@ -69,7 +69,7 @@ mod chunk {
             Self([value; CHUNK])
         }
         #[inline(always)]
-        pub(crate) fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
             Self(std::array::from_fn(|j| f(self.0[j], other.0[j])))
         }
         /// Whether all are at most `bound`; NaN is not.

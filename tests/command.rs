@@ -173,8 +173,12 @@ fn start_drivers_and_actions_are_options() {
 
 #[test]
 fn rows_come_at_the_interval_and_at_a_collision() {
-    let csv = answer(&["run", "--preset", "phantom-jam", "--every", "50"]);
-    let collision = summary(&["--preset", "phantom-jam"])["collision"]["time"].as_f64().unwrap();
+    let output = ringroad(&["run", "--preset", "phantom-jam", "--every", "50"]);
+    let [csv, note] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+    let collision = summary(&["--preset", "phantom-jam"])["collision"].clone();
+    let [behind, ahead] = ["behind", "ahead"].map(|who| &collision[who]);
+    let collision = collision["time"].as_f64().unwrap();
+    assert_eq!(note, format!("note: the run ended at {collision} s: vehicle {behind} ran into {ahead}\n"));
     let mut times: Vec<f64> = column(&csv, "time_s").iter().map(|t| t.parse().unwrap()).collect();
     times.dedup();
     let whole = (collision / 50.0).floor() as u32;
@@ -399,7 +403,7 @@ fn a_replay_agrees_or_says_where_it_differs() {
     ];
     for (k, case) in cases.iter().enumerate() {
         let name = file(&format!("{k}.csv"));
-        answer(&[&["run", "--out", &name], *case].concat());
+        assert!(ringroad(&[&["run", "--out", &name], *case].concat()).status.success());
         assert!(answer(&["replay", &name]).contains("every byte agrees"));
     }
 
@@ -442,6 +446,14 @@ fn a_replay_agrees_or_says_where_it_differs() {
         assert!(message.contains(name) && message.contains("CSV header"), "{message}");
     }
     assert!(refusal(&["replay", &file("none.csv")]).contains("none.csv"));
+    // Tables of Ringroad that are not of one run say what they are.
+    let batch = file("batch.csv");
+    answer(&["batch", "--until", "5", "--vary", "reaction-time=0:0.2:0.1", "--out", &batch]);
+    let message = refusal(&["replay", &batch]);
+    assert!(
+        message.contains("the table of a batch") && message.contains("`ringroad batch --plan`"),
+        "{message}"
+    );
 }
 
 #[test]

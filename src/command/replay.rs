@@ -36,7 +36,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::FAILURE);
     }
     let Provenance { scenario, measurement, .. } = Provenance::from_csv(&text).map_err(|e| e.within(file))?;
-    let again = tabulate(&scenario, &measurement)?.to_csv(&scenario, &measurement);
+    let again = tabulate(&scenario, &measurement)?.0.to_csv(&scenario, &measurement);
     if again == text {
         Output::Standard.write(&format!("{file}: every byte agrees.\n"))?;
         return Ok(ExitCode::SUCCESS);

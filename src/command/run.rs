@@ -9,7 +9,7 @@ use ringroad::error::Invalid;
 use ringroad::measurement::{Measurement, SETTINGS};
 use ringroad::probe::measure;
 use ringroad::scenario::Scenario;
-use ringroad::simulation::Simulation;
+use ringroad::simulation::{Collision, Simulation};
 use ringroad::table::Table;
 use std::process::ExitCode;
 
@@ -79,8 +79,11 @@ pub(crate) fn measurement(matches: &ArgMatches, default: &str) -> Result<Measure
     Ok(Measurement::named(name)?.with_options(given)?)
 }
 
-/// Runs the scenario to its end and gives the table, with a progress bar on a terminal.
-pub(crate) fn tabulate(scenario: &Scenario, measurement: &Measurement) -> Result<Table, Failure> {
+/// Runs the scenario to its end and gives the table, and the collision that ended it, with a progress bar on a terminal.
+pub(crate) fn tabulate(
+    scenario: &Scenario,
+    measurement: &Measurement,
+) -> Result<(Table, Option<Collision>), Failure> {
     let gib = measurement.bytes(scenario) / (1024.0 * 1024.0 * 1024.0);
     if gib > MEMORY {
         let allowed =
@@ -95,7 +98,7 @@ pub(crate) fn tabulate(scenario: &Scenario, measurement: &Measurement) -> Result
         true
     });
     bar.finish_and_clear();
-    Ok(probes[0].table())
+    Ok((probes[0].table(), simulation.collision()))
 }
 
 fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
@@ -114,8 +117,16 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         output.write(&summary(&simulation, &watched))?;
     } else {
         let measurement = measurement(matches, "trajectories")?;
-        let table = tabulate(&scenario, &measurement)?;
+        let (table, collision) = tabulate(&scenario, &measurement)?;
         output.write(&table.to_csv(&scenario, &measurement))?;
+        if let Some(Collision { time, behind, ahead, .. }) = collision {
+            eprintln!(
+                "note: the run ended at {} s: vehicle {} ran into {}",
+                (time * 1e6).round() / 1e6,
+                behind + 1,
+                ahead + 1
+            );
+        }
     }
     Ok(ExitCode::SUCCESS)
 }
