@@ -464,7 +464,7 @@ impl Live {
     }
 
     /// A fresh start with what holds now: what was set for all drivers on the way becomes the default driver, and
-    /// of the actions only those at t = 0 remain.
+    /// of the actions those at t = 0 remain and those still to come.
     pub fn settled(&self) -> Scenario {
         let mut scenario = self.simulation.scenario().clone();
         let now = self.simulation.step_index();
@@ -482,7 +482,8 @@ impl Live {
         scenario.exceptions.retain(|e| !e.values.is_empty());
         let is_set = |e: &Effect| matches!(e, Effect::Set(..));
         let steps = |a: &Action| (a.at / scenario.time_step).round() as u64;
-        scenario.actions.retain(|a| steps(a) == 0 && !(a.who == Who::All && a.effects.iter().all(is_set)));
+        let is_settled = |a: &Action| a.who == Who::All && a.effects.iter().all(is_set);
+        scenario.actions.retain(|a| steps(a) > now || steps(a) == 0 && !is_settled(a));
         scenario
     }
 
@@ -693,6 +694,19 @@ mod tests {
         let before = live.simulation().scenario().clone();
         assert!(live.set("vehicles", "300").is_err() && live.set("colour", "1").is_err());
         assert_eq!(*live.simulation().scenario(), before, "a refusal changes nothing");
+    }
+
+    #[test]
+    fn what_is_still_to_come_is_kept_where_the_road_starts_again() {
+        let actions = "action=at%3D5%3A7%3Abrake%3D3&action=at%3D20%3A45%3Anudge%3D1&action=at%3D30%3Aall%3Asensitivity%3D2";
+        let kept = |seconds: f64, vehicles: &str| {
+            let mut live = run(actions, seconds);
+            live.set("vehicles", vehicles).unwrap();
+            live.simulation().scenario().actions.iter().map(Action::to_string).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(kept(0.0, "60"), "at=5:7:brake=3 at=20:45:nudge=1 at=30:all:sensitivity=2");
+        assert_eq!(kept(10.0, "60"), "at=20:45:nudge=1 at=30:all:sensitivity=2");
+        assert_eq!(kept(10.0, "40"), "at=30:all:sensitivity=2", "there is no vehicle 45");
     }
 
     #[test]

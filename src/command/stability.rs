@@ -146,7 +146,9 @@ fn numbers(scenario: &Scenario, intervals: &[(usize, usize)]) -> Vec<String> {
 fn in_words(scenario: &Scenario, answer: &Answer) -> String {
     let report = &answer.report;
     let mut text = report.verdict() + "\n\n";
-    let seconds = |x: Option<f64>| x.map_or("none".to_owned(), |x| format!("{x:.6} s"));
+    let seconds = |x: Option<f64>| {
+        x.map_or("none".to_owned(), |x| if x < 1e6 { format!("{x:.6} s") } else { format!("{x:.3e} s") })
+    };
     let rate = |x: Option<f64>, mode: Option<usize>| match (x, mode) {
         (Some(x), Some(q)) => format!("{}, mode {q}", per_second(x)),
         (Some(x), None) => per_second(x),
