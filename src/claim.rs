@@ -25,6 +25,14 @@ pub struct Estimate {
     pub uncertainty: f64,
 }
 
+/// The value, and the uncertainty if there is one.
+impl fmt::Display for Estimate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&short(self.value))?;
+        if self.uncertainty == 0.0 { Ok(()) } else { write!(f, " ± {}", short(self.uncertainty)) }
+    }
+}
+
 impl Estimate {
     /// A value with an uncertainty.
     pub fn new(value: f64, uncertainty: f64) -> Self {
@@ -193,13 +201,10 @@ impl Claim {
         with_unit(text, self.unit)
     }
 
-    /// What we measure, in words: `2065.2 ± 0 veh/h`.
+    /// What we measure, in words: `2065.2 veh/h`, or `40.2 ± 0.3 %`.
     pub fn ours_in_words(&self) -> String {
-        let Estimate { value, uncertainty } = self.ours();
-        if value.is_nan() {
-            return "none".into();
-        }
-        with_unit(format!("{} ± {}", short(value), short(uncertainty)), self.unit)
+        let ours = self.ours();
+        if ours.value.is_nan() { "none".into() } else { with_unit(ours.to_string(), self.unit) }
     }
 
     /// How it was measured, with what the other readings give.
@@ -212,10 +217,7 @@ impl Claim {
         let met = self.readings.iter().filter(|r| self.expected.is_met_by(r.ours)).count();
         let _ = write!(text, " Readings tried: {}, of which {met} meet the claim.", self.readings.len());
         if others.len() <= 6 {
-            let each = |r: &Reading| match r.ours.uncertainty {
-                0.0 => format!("{}: {}", r.choice, short(r.ours.value)),
-                half => format!("{}: {} ± {}", r.choice, short(r.ours.value), short(half)),
-            };
+            let each = |r: &Reading| format!("{}: {}", r.choice, r.ours);
             let _ = write!(text, " Others: {}.", others.iter().map(each).collect::<Vec<_>>().join("; "));
         } else {
             let values = || self.readings.iter().map(|r| r.ours.value);

@@ -1,7 +1,7 @@
 //! One aggressive driver among fifty: what it gains, and what it does to the others.
 
 use super::{Figure, FigureTable, Outcome, Piece, Size, Spread, indicator, observed};
-use crate::claim::{Claim, Estimate, Expected, mean, short};
+use crate::claim::{Claim, Estimate, Expected, mean};
 use crate::plot::{Axis, Layer, Panel, Plot};
 use crate::probe::Probe;
 use crate::scenario::{Scenario, Start};
@@ -259,8 +259,7 @@ fn claims(size: Size, runs: &[Piece], alone: &Piece) -> Vec<Claim> {
     // Of a control driver: the mean of the two neighbours, which halves the noise; both are told.
     let control = |p: &Piece, first: usize| 0.5 * (last(p, first + 1) + last(p, first + 2));
     let both = |of: &dyn Fn(usize) -> Estimate| {
-        let words = |e: Estimate| format!("{} ± {}", short(e.value), short(e.uncertainty));
-        format!("Mean of both neighbours in lane 2: ahead {}, behind {}.", words(of(1)), words(of(2)))
+        format!("Mean of both neighbours in lane 2: ahead {}, behind {}.", of(1), of(2))
     };
     let control_changes = over(&|p: &Piece| control(p, CHANGES));
     let ratio = {

@@ -1,7 +1,7 @@
 //! Two lanes share the load: all vehicles start in one of them.
 
 use super::{Figure, FigureTable, Outcome, Piece, Size, Spread, column, measured};
-use crate::claim::{Claim, Estimate, Expected, mean, short};
+use crate::claim::{Claim, Estimate, Expected, mean};
 use crate::driver::Driver;
 use crate::frustration::attempt_probability;
 use crate::measurement::Measurement;
@@ -303,8 +303,8 @@ fn claims(size: Size, paper: &Group, tenth: &Group) -> Vec<Claim> {
             format!(
                 "Mean from 60 to {} s: {} and {}; 10 runs as in the figure leave the sign open.",
                 until(size),
-                words(paper.late),
-                words(tenth.late)
+                paper.late,
+                tenth.late
             ),
         ),
         Claim::new(
@@ -316,10 +316,6 @@ fn claims(size: Size, paper: &Group, tenth: &Group) -> Vec<Claim> {
             "The formula; tolerance 1 %, read from “about”.",
         ),
     ]
-}
-
-fn words(estimate: Estimate) -> String {
-    format!("{} ± {}", short(estimate.value), short(estimate.uncertainty))
 }
 
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
