@@ -127,6 +127,61 @@ test('a number out of range gets a sentence and the last good value stays', asyn
   equal(page.problems.join(), '', 'errors on the page')
 })
 
+test('a complaint goes when its number goes: something is set, or an experiment opens', async ({ open }) => {
+  const page = await open('index.html', { reducedMotion: 'reduce' })
+  await ready(page)
+  const others = {
+    setting: () => page.fill('#p-vehicles-number', '60').then(() => page.keyboard.press('Enter')),
+    experiment: () => page.selectOption('#presets', 'stable'),
+    slider: () => page.focus('#p-lanes').then(() => page.keyboard.press('ArrowRight')),
+  }
+  for (const [name, other] of Object.entries(others)) {
+    await page.fill('#p-lanes-number', '9')
+    await page.keyboard.press('Enter')
+    await page.waitForSelector('#p-lanes-wrong:not([hidden])')
+    equal(await page.inputValue('#p-lanes-number'), '9', `what was typed, before the ${name}`)
+    await other()
+    await page.waitForSelector('#p-lanes-wrong', { state: 'hidden' })
+    equal(await page.getAttribute('#p-lanes-number', 'aria-invalid'), 'false', `aria-invalid after a ${name}`)
+    await page.waitForFunction(() => document.querySelector('#p-lanes-number').value === document.querySelector('#p-lanes').value)
+  }
+})
+
+test('a decimal comma is a point, typed or pasted, in every number field', async ({ open }) => {
+  const page = await open('index.html', { reducedMotion: 'reduce' })
+  await ready(page)
+  await page.click('#more-controls')
+  const type = async (field, typed) => {
+    await page.focus(field)
+    await page.keyboard.press('Control+a')
+    await page.keyboard.type(typed)
+    const value = await page.inputValue(field)
+    await page.evaluate(() => document.activeElement.blur())
+    await page.waitForTimeout(200)
+    return value
+  }
+  for (const field of ['#p-reaction_time-number', '#p-time_step-number']) equal(await type(field, '0,4'), '0.4', field)
+  equal(await type('#p-length-number', '1,5'), '1.5', 'ring length')
+  await page.click('#tab-car')
+  for (const field of ['#own-reaction_time', '#car-number']) equal(await type(field, '0,4'), '0.4', field)
+  await page.click('#open-files')
+  equal(await type('#every', '0,4'), '0.4', 'a row every')
+  // Pasted: cut from a field of text.
+  for (const [text, number] of [['0,4', '0.4'], ['-0,25', '-0.25'], ['1,234.5', '1234.5']]) {
+    await page.evaluate(text => {
+      const field = document.createElement('textarea')
+      field.value = text
+      document.querySelector('#files').append(field)
+      field.select()
+    }, text)
+    await page.keyboard.press('Control+x')
+    await page.fill('#every', '')
+    await page.focus('#every')
+    await page.keyboard.press('Control+v')
+    equal(await page.inputValue('#every'), number, `pasted ${text}`)
+  }
+})
+
 test('a long export can be cancelled, and the page stays alive meanwhile', async ({ open }) => {
   const page = await open('index.html#vehicles=4000&length=80000')
   await ready(page)

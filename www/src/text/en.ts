@@ -182,6 +182,8 @@ export const en = {
     } as Record<string, string>,
     units: { '': '', s: 'seconds', m: 'metres', 'm/s': 'metres per second', '1/s': 'per second' } as Record<string, string>,
     number: (name: string): string => `${name}, as a number`,
+    allowed: (name: string, whole: boolean, min: number, max: number, unit: string): string =>
+      `${name}: ${whole ? 'a whole number' : 'a number'} from ${min} to ${max} ${unit}`.trim(),
     start: 'Start',
     starts: {
       uniform: 'uniform',

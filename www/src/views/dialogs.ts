@@ -5,6 +5,7 @@ import { fixed } from '../format'
 import { save } from '../save'
 import type { Session } from '../session'
 import { text } from '../text'
+import { numberField } from './number'
 
 function dialog(id: string, title: string, ...children: (Node | null)[]): HTMLDialogElement {
   const close = el('button', { type: 'button', 'aria-label': text.header.close, onclick: () => element.close() }, '✕')
@@ -63,7 +64,7 @@ const TABLES = ['trajectories', 'speed-map', 'speeds', 'flow-map', 'flow', 'lane
 export function filesDialog(session: Session): HTMLDialogElement {
   const t = text.files
   const table = el('select', { id: 'table' }, ...TABLES.map(name => el('option', { value: name }, t.tables[name] ?? name)))
-  const every = el('input', { type: 'number', id: 'every', value: 1, min: 0.001, step: 'any', style: 'width:6rem' })
+  const { number: every, wrong, complain } = numberField({ id: 'every', value: 1, min: 0.001, max: 1e7, style: 'width:6rem' })
   const bar = el('progress', { max: 1, value: 0, hidden: true, 'aria-label': t.export })
   const status = el('p', { role: 'status', id: 'export-status' })
   const shown = el('textarea', { rows: 8, readonly: true, hidden: true, 'aria-label': t.show, id: 'export-text' })
@@ -75,7 +76,13 @@ export function filesDialog(session: Session): HTMLDialogElement {
     if (table.value === 'speed-map') plain.lane = session.view.lane + 1
     return JSON.stringify(plain)
   }
+  every.addEventListener('input', () => complain(''))
   const csv = async (use: (content: string) => void) => {
+    if (table.value !== 'events' && !(every.valueAsNumber >= Number(every.min) && every.valueAsNumber <= Number(every.max))) {
+      complain(text.controls.allowed(t.every, false, Number(every.min), Number(every.max), 's'))
+      every.focus()
+      return
+    }
     bar.hidden = cancel.hidden = false
     session.pause()
     try {
@@ -128,7 +135,7 @@ export function filesDialog(session: Session): HTMLDialogElement {
     opened.style.color = done ? '' : 'var(--bad)'
     file.value = ''
   })
-  const everyRow = el('div', {}, el('label', { for: 'every' }, t.every), el('div', { class: 'row' }, every, 's'))
+  const everyRow = el('div', {}, el('label', { for: 'every' }, t.every), el('div', { class: 'row' }, every, 's'), wrong)
   table.addEventListener('change', () => {
     everyRow.hidden = table.value === 'events'
   })
