@@ -43,8 +43,10 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
     'aria-label': slider ? t.number(name) : name,
   })
   const label = el('label', { for: id, title: parameter.meaning }, name, parameter.symbol ? '\u00a0' : null, parameter.symbol ? el('i', {}, parameter.symbol) : null)
-  const back = el('button', { type: 'button', class: 'back', 'aria-label': t.reset(name), title: t.reset(name), onclick: () => void commit(String(parameter.default)) }, '↺')
+  const back = el('button', { type: 'button', class: 'back', 'aria-label': t.reset(name), title: t.reset(name), onclick: () => void commit(String(first)) }, '↺')
 
+  /** What was opened. */
+  let first = parameter.default
   let timer = 0
   const show = (value: number) => {
     // A slider that is being moved is not taken out of the hand.
@@ -54,7 +56,7 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
     }
     // What was refused stays with its sentence.
     if (wrong.hidden && (document.activeElement !== number || number.dataset.typed !== 'yes')) number.value = shown(parameter, value)
-    back.style.visibility = value === parameter.default ? 'hidden' : ''
+    back.style.visibility = value === first ? 'hidden' : ''
   }
   const commit = async (value: string) => {
     clearTimeout(timer)
@@ -135,7 +137,7 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
   })
   session.on('opened', () => {
     complain('')
-    show(valueOf(session, parameter))
+    show((first = valueOf(session, parameter)))
   })
   return el(
     'div',

@@ -6,6 +6,7 @@ import { save } from '../save'
 import type { Session } from '../session'
 import { text } from '../text'
 import { numberField } from './number'
+import { BRAKE } from './ring'
 
 function dialog(id: string, title: string, ...children: (Node | null)[]): HTMLDialogElement {
   const close = el('button', { type: 'button', 'aria-label': text.header.close, onclick: () => element.close() }, '✕')
@@ -43,14 +44,18 @@ export function shareDialog(session: Session, address: () => string): HTMLDialog
   }
   const link = part('share-link', t.link, 3)
   const embed = part('share-embed', t.embed, 4)
-  const element = dialog('share', t.title, ...link.nodes, ...embed.nodes, el('p', {}, t.shortcut))
+  const disk = el('p', { id: 'share-disk', hidden: true }, t.disk)
+  const element = dialog('share', t.title, ...link.nodes, ...embed.nodes, disk, el('p', {}, t.shortcut))
   const fill = () => {
     const hash = session.snapshot.link
     const base = address()
     link.field.value = hash === '' ? base : `${base}#${hash}`
     const file = base.split('/').pop() ?? ''
     const one = file === 'ringroad.html'
-    const frame = one ? `${base}#view=embed${hash === '' ? '' : `&${hash}`}` : `${base.slice(0, base.length - file.length)}embed.html${hash === '' ? '' : `#${hash}`}`
+    // An address on this disk means nothing in a course page.
+    disk.hidden = !base.startsWith('file:')
+    const folder = disk.hidden ? base.slice(0, base.length - file.length) : ''
+    const frame = one ? `${folder}${file}#view=embed${hash === '' ? '' : `&${hash}`}` : `${folder}embed.html${hash === '' ? '' : `#${hash}`}`
     embed.field.value = `<iframe src="${frame.replaceAll('&', '&amp;')}" width="100%" height="520" style="border:0" allowfullscreen title="Ringroad"></iframe>`
   }
   element.addEventListener('toggle', fill)
@@ -166,7 +171,7 @@ export function helpDialog(session: Session): HTMLDialogElement {
     el('p', {}, t.what),
     el('p', {}, t.threshold),
     el('p', {}, t.reading),
-    el('p', {}, text.ring.hint),
+    el('p', {}, text.ring.hint(BRAKE)),
     el('table', {}, el('tbody', {}, ...t.keys.map(([key, what]) => el('tr', {}, el('td', {}, el('kbd', {}, key)), el('td', {}, what))))),
     el('p', { class: 'note' }, t.version(session.start.version, session.client.place)),
   )
