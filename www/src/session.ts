@@ -116,11 +116,13 @@ export class Session {
 
   /** Does something now, such as `7:brake=3`. */
   async act(action: string): Promise<boolean> {
-    if (this.frame?.collision) {
-      this.#emit('trouble', [text.trouble.over])
-      return false
-    }
-    return this.#change('act', { text: action })
+    return !this.#over() && this.#change('act', { text: action })
+  }
+  /** After a collision nothing goes on; says so. */
+  #over(): boolean {
+    const over = !!this.frame?.collision
+    if (over) this.#emit('trouble', [text.trouble.over])
+    return over
   }
   /** Sets a parameter: a driver's from now on, any other by starting again. */
   set(name: string, value: string): Promise<boolean> {
@@ -197,11 +199,11 @@ export class Session {
   }
   toggle(): void {
     if (this.playing) this.pause()
-    else this.play()
+    else if (!this.#over()) this.play()
   }
   async step(): Promise<void> {
     this.pause()
-    if (this.#busy) return
+    if (this.#busy || this.#over()) return
     this.#show(await this.client.ask('advance', { steps: 1, budget: 1000 }))
   }
   setPlayback(playback: number): void {

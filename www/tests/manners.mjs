@@ -88,6 +88,40 @@ test('keys play, step, nudge, brake and help; sliders speak with units', async (
   equal(await page.evaluate(() => window.ringroad.watched), 1, 'watched car')
 })
 
+test('beside the map its numbers leave the name room, and the charts’ unit the topmost number', async ({ open }) => {
+  for (const length of [1000, 5000, 10000, 300000]) {
+    const page = await open('about:blank', { reducedMotion: 'reduce' })
+    await page.addInitScript(() => {
+      window.written = []
+      const { fillText: write, clearRect: clear } = CanvasRenderingContext2D.prototype
+      CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+        if (this.canvas.closest('#speeds')) window.written = []
+        return clear.apply(this, box)
+      }
+      CanvasRenderingContext2D.prototype.fillText = function (words, x, y) {
+        if (this.canvas.closest('#speeds')) {
+          const { actualBoundingBoxLeft: l, actualBoundingBoxRight: r, actualBoundingBoxAscent: a, actualBoundingBoxDescent: d } = this.measureText(words)
+          window.written.push({ words, left: x - l, right: x + r, top: y - a, bottom: y + d })
+        }
+        return write.call(this, words, x, y)
+      }
+    })
+    await page.goto(`${(await open('course.html')).url().replace('course.html', 'index.html')}#length=${length}`)
+    await ready(page)
+    await page.waitForTimeout(300)
+    const covered = await page.evaluate(() => {
+      const [name, ...numbers] = [...document.querySelectorAll('#map .axis.y span')].map(e => e.getBoundingClientRect())
+      return numbers.filter(n => n.left < name.right).length
+    })
+    equal(covered, 0, `numbers beside the name of the map's axis, ring of ${length} m`)
+    const over = await page.evaluate(() => {
+      const unit = window.written.findLast(w => w.words === 'm/s')
+      return window.written.filter(w => w.words !== 'm/s' && w.left < unit.right && w.right > unit.left && w.top < unit.bottom && w.bottom > unit.top).map(w => w.words)
+    })
+    equal(over.join(), '', 'numbers under the unit of the speeds')
+  }
+})
+
 test('a hidden page stops and goes on where it was', async ({ open }) => {
   const page = await open('index.html')
   await ready(page)

@@ -70,6 +70,19 @@ test('the frame that is shared is as high as README’s', async ({ open }) => {
   equal(height(await page.inputValue('#share-embed')), own, 'height')
 })
 
+test('what is shared from disk names no place on that disk in a course page', async ({ open }) => {
+  const page = await open(`file://${dist}/ringroad.html#vehicles=40`)
+  await ready(page)
+  await page.click('#open-share')
+  holds((await page.inputValue('#share-embed')).startsWith('<iframe src="ringroad.html#view=embed&amp;vehicles=40"'), await page.inputValue('#share-embed'))
+  holds(await page.isVisible('#share-disk'), 'not a word about a web server')
+  const site = await open('index.html#vehicles=40')
+  await ready(site)
+  await site.click('#open-share')
+  holds((await site.inputValue('#share-embed')).startsWith(`<iframe src="${new URL('embed.html', site.url())}#vehicles=40"`), await site.inputValue('#share-embed'))
+  holds(!(await site.isVisible('#share-disk')), 'a word about disks on a site')
+})
+
 test('the laboratory loads nothing of the figures, and says when they cannot be loaded', async ({ open, address }) => {
   const page = await open('about:blank')
   const asked = []

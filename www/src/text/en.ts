@@ -105,7 +105,7 @@ export const en = {
     car: (n: number): string => `car ${n}`,
     colour: 'Colour',
     colours: { difference: 'against v∞', speed: 'speed', frustration: 'frustration' },
-    hint: 'Click a car to watch it; press and hold to brake it.',
+    hint: (s: number): string => `Click a car to watch it; press it longer to brake it for ${unit(String(s), 's')}.`,
   },
 
   legend: {
@@ -162,7 +162,7 @@ export const en = {
     title: 'Drivers and road',
     more: 'More',
     less: 'Fewer',
-    reset: (name: string): string => `Reset ${name} to its default`,
+    reset: (name: string): string => `Put ${name} back to what was opened`,
     drivers: 'Every driver',
     road: 'Road and run',
     names: {
@@ -182,6 +182,8 @@ export const en = {
     } as Record<string, string>,
     units: { '': '', s: 'seconds', m: 'metres', 'm/s': 'metres per second', '1/s': 'per second' } as Record<string, string>,
     number: (name: string): string => `${name}, as a number`,
+    allowed: (name: string, whole: boolean, min: number, max: number, unit: string): string =>
+      `${name}: ${whole ? 'a whole number' : 'a number'} from ${min} to ${max} ${unit}`.trim(),
     start: 'Start',
     starts: {
       uniform: 'uniform',
@@ -243,6 +245,7 @@ export const en = {
     copy: 'Copy',
     copied: 'Copied',
     select: 'Selected: press Ctrl+C',
+    disk: 'This page was opened from disk: put its file on a web server first, beside the course page.',
     shortcut: 'The link holds only what differs from the default.',
   },
 

@@ -27,8 +27,19 @@ export function roundSteps(low: number, high: number, most: number): number[] {
   return steps
 }
 
-export const ticks = (values: readonly number[], place: (v: number) => number): Tick[] =>
-  values.map(v => ({ at: place(v), label: fixed(v, 3) }))
+/** Numbers at an axis, with as many decimals as tell neighbours apart. */
+export function labels(values: readonly number[]): string[] {
+  const step = Math.min(...values.map((v, k) => Math.abs(v - (values[k - 1] ?? 0)) || Number.POSITIVE_INFINITY))
+  const decimals = Math.min(20, Math.max(3, Math.ceil(-Math.log10(step) - 1e-9)))
+  return values.map(v => fixed(v, decimals))
+}
+/** Width that they need beside an axis, px. */
+export const room = (values: readonly number[]): number => 9 + 7.5 * Math.max(0, ...labels(values).map(label => label.length))
+
+export function ticks(values: readonly number[], place: (v: number) => number): Tick[] {
+  const words = labels(values)
+  return values.map((v, k) => ({ at: place(v), label: words[k]! }))
+}
 
 /** Where a line one pixel wide fills pixels and does not straddle them. */
 const crisp = (at: number): number => Math.round(at) + 0.5
@@ -75,7 +86,8 @@ export function axes(c: CanvasRenderingContext2D, f: Frame, x: readonly Tick[], 
   c.fillText(names.x, f.right, f.bottom + (f.flat ? 4 : 35))
   c.textAlign = 'left'
   c.textBaseline = 'bottom'
-  c.fillText(names.y, f.flat ? 4 : 0, f.top - (f.flat ? 4 : 8))
+  // In little height beside the numbers, whose topmost may stand at the very top.
+  c.fillText(names.y, f.flat ? f.left : 0, f.top - (f.flat ? 4 : 8))
 }
 
 /** A word with a halo of the card's colour, so that lines behind it do not touch it. */

@@ -3,7 +3,7 @@
 import { drawing, el, style } from '../dom'
 import { exactly, fixed, unit } from '../format'
 import { text } from '../text'
-import { type Frame, axes, flat, roundSteps, ticks } from './axes'
+import { type Frame, axes, flat, room, roundSteps, ticks } from './axes'
 
 const t = text.chart
 
@@ -140,7 +140,7 @@ export function chart(label: string, name: string, digits: number): Chart {
     if (w < 60 || h < 50) return
     // First the numbers: the frame leaves them their width, and they find their places in it.
     const steps = roundSteps(low, high, Math.max(2, Math.floor((h - 28) / 34)))
-    f = flat(w, h, 9 + 7.5 * Math.max(...steps.map(v => fixed(v, 3).length)), name)
+    f = flat(w, h, room(steps), name)
     const times = roundSteps(start, end, Math.max(2, Math.floor((f.right - f.left) / 42)))
     axes(c, f, ticks(times, x), ticks(steps, y), { x: text.map.time, y: name })
     c.save()

@@ -5,6 +5,7 @@ import { fixed } from '../format'
 import type { Session } from '../session'
 import type { Parameter, Verdict } from '../shared/protocol'
 import { text } from '../text'
+import { numberField } from './number'
 import { BRAKE } from './ring'
 
 const t = text.controls
@@ -35,20 +36,17 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
   const slider = parameter.slider
     ? el('input', { type: 'range', id, ...parameter.slider, title: parameter.meaning })
     : null
-  const number = el('input', {
-    type: 'number',
+  const { number, wrong, complain } = numberField({
     id: slider ? `${id}-number` : id,
     min: parameter.min,
     max: parameter.max,
-    step: 'any',
-    inputmode: 'decimal',
     'aria-label': slider ? t.number(name) : name,
-    'aria-describedby': `${id}-wrong`,
   })
-  const wrong = el('div', { class: 'wrong', id: `${id}-wrong`, role: 'alert', hidden: true })
   const label = el('label', { for: id, title: parameter.meaning }, name, parameter.symbol ? '\u00a0' : null, parameter.symbol ? el('i', {}, parameter.symbol) : null)
-  const back = el('button', { type: 'button', class: 'back', 'aria-label': t.reset(name), title: t.reset(name), onclick: () => void commit(String(parameter.default)) }, '↺')
+  const back = el('button', { type: 'button', class: 'back', 'aria-label': t.reset(name), title: t.reset(name), onclick: () => void commit(String(first)) }, '↺')
 
+  /** What was opened. */
+  let first = parameter.default
   let timer = 0
   const show = (value: number) => {
     // A slider that is being moved is not taken out of the hand.
@@ -56,16 +54,10 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
       slider.value = String(value)
       slider.setAttribute('aria-valuetext', `${fixed(value, 3)} ${unitName}`.trim())
     }
-    if (document.activeElement !== number || number.dataset.typed !== 'yes') number.value = shown(parameter, value)
-    back.style.visibility = value === parameter.default ? 'hidden' : ''
+    // What was refused stays with its sentence.
+    if (wrong.hidden && (document.activeElement !== number || number.dataset.typed !== 'yes')) number.value = shown(parameter, value)
+    back.style.visibility = value === first ? 'hidden' : ''
   }
-  const complain = (message: string) => {
-    wrong.textContent = message
-    wrong.hidden = message === ''
-    number.setAttribute('aria-invalid', String(message !== ''))
-  }
-  const allowed = () =>
-    `${name}: ${parameter.whole ? 'a whole number' : 'a number'} from ${parameter.min} to ${parameter.max} ${parameter.unit}`.trim()
   const commit = async (value: string) => {
     clearTimeout(timer)
     timer = 0
@@ -104,6 +96,7 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
       moving = true
     })
     slider.addEventListener('input', () => {
+      complain('')
       number.value = shown(parameter, Number(slider.value))
       slider.setAttribute('aria-valuetext', `${fixed(Number(slider.value), 3)} ${unitName}`.trim())
       void foresee(slider.value)
@@ -125,7 +118,8 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
     const fits = value >= parameter.min && value <= parameter.max && (!parameter.whole || Number.isInteger(value))
     if (!fits) {
       // The last good state stays; the sentence stands where the number was typed.
-      complain(allowed())
+      number.dataset.typed = ''
+      complain(t.allowed(name, parameter.whole, parameter.min, parameter.max, parameter.unit))
       return
     }
     void commit(String(value))
@@ -134,7 +128,17 @@ function control(session: Session, parameter: Parameter, preview: (v: Verdict | 
     number.dataset.typed = ''
     if (wrong.hidden) show(valueOf(session, parameter))
   })
-  session.on('snapshot', () => show(valueOf(session, parameter)))
+  // A refused number goes when anything is set, done or opened; time alone leaves it.
+  let link = ''
+  session.on('snapshot', snapshot => {
+    if (snapshot.link !== link) complain('')
+    link = snapshot.link
+    show(valueOf(session, parameter))
+  })
+  session.on('opened', () => {
+    complain('')
+    show((first = valueOf(session, parameter)))
+  })
   return el(
     'div',
     { class: 'control' },

@@ -5,6 +5,8 @@ import { fixed } from '../format'
 import { save } from '../save'
 import type { Session } from '../session'
 import { text } from '../text'
+import { numberField } from './number'
+import { BRAKE } from './ring'
 
 function dialog(id: string, title: string, ...children: (Node | null)[]): HTMLDialogElement {
   const close = el('button', { type: 'button', 'aria-label': text.header.close, onclick: () => element.close() }, '✕')
@@ -42,14 +44,18 @@ export function shareDialog(session: Session, address: () => string): HTMLDialog
   }
   const link = part('share-link', t.link, 3)
   const embed = part('share-embed', t.embed, 4)
-  const element = dialog('share', t.title, ...link.nodes, ...embed.nodes, el('p', {}, t.shortcut))
+  const disk = el('p', { id: 'share-disk', hidden: true }, t.disk)
+  const element = dialog('share', t.title, ...link.nodes, ...embed.nodes, disk, el('p', {}, t.shortcut))
   const fill = () => {
     const hash = session.snapshot.link
     const base = address()
     link.field.value = hash === '' ? base : `${base}#${hash}`
     const file = base.split('/').pop() ?? ''
     const one = file === 'ringroad.html'
-    const frame = one ? `${base}#view=embed${hash === '' ? '' : `&${hash}`}` : `${base.slice(0, base.length - file.length)}embed.html${hash === '' ? '' : `#${hash}`}`
+    // An address on this disk means nothing in a course page.
+    disk.hidden = !base.startsWith('file:')
+    const folder = disk.hidden ? base.slice(0, base.length - file.length) : ''
+    const frame = one ? `${folder}${file}#view=embed${hash === '' ? '' : `&${hash}`}` : `${folder}embed.html${hash === '' ? '' : `#${hash}`}`
     embed.field.value = `<iframe src="${frame.replaceAll('&', '&amp;')}" width="100%" height="520" style="border:0" allowfullscreen title="Ringroad"></iframe>`
   }
   element.addEventListener('toggle', fill)
@@ -63,7 +69,7 @@ const TABLES = ['trajectories', 'speed-map', 'speeds', 'flow-map', 'flow', 'lane
 export function filesDialog(session: Session): HTMLDialogElement {
   const t = text.files
   const table = el('select', { id: 'table' }, ...TABLES.map(name => el('option', { value: name }, t.tables[name] ?? name)))
-  const every = el('input', { type: 'number', id: 'every', value: 1, min: 0.001, step: 'any', style: 'width:6rem' })
+  const { number: every, wrong, complain } = numberField({ id: 'every', value: 1, min: 0.001, max: 1e7, style: 'width:6rem' })
   const bar = el('progress', { max: 1, value: 0, hidden: true, 'aria-label': t.export })
   const status = el('p', { role: 'status', id: 'export-status' })
   const shown = el('textarea', { rows: 8, readonly: true, hidden: true, 'aria-label': t.show, id: 'export-text' })
@@ -75,7 +81,13 @@ export function filesDialog(session: Session): HTMLDialogElement {
     if (table.value === 'speed-map') plain.lane = session.view.lane + 1
     return JSON.stringify(plain)
   }
+  every.addEventListener('input', () => complain(''))
   const csv = async (use: (content: string) => void) => {
+    if (table.value !== 'events' && !(every.valueAsNumber >= Number(every.min) && every.valueAsNumber <= Number(every.max))) {
+      complain(text.controls.allowed(t.every, false, Number(every.min), Number(every.max), 's'))
+      every.focus()
+      return
+    }
     bar.hidden = cancel.hidden = false
     session.pause()
     try {
@@ -128,7 +140,7 @@ export function filesDialog(session: Session): HTMLDialogElement {
     opened.style.color = done ? '' : 'var(--bad)'
     file.value = ''
   })
-  const everyRow = el('div', {}, el('label', { for: 'every' }, t.every), el('div', { class: 'row' }, every, 's'))
+  const everyRow = el('div', {}, el('label', { for: 'every' }, t.every), el('div', { class: 'row' }, every, 's'), wrong)
   table.addEventListener('change', () => {
     everyRow.hidden = table.value === 'events'
   })
@@ -159,7 +171,7 @@ export function helpDialog(session: Session): HTMLDialogElement {
     el('p', {}, t.what),
     el('p', {}, t.threshold),
     el('p', {}, t.reading),
-    el('p', {}, text.ring.hint),
+    el('p', {}, text.ring.hint(BRAKE)),
     el('table', {}, el('tbody', {}, ...t.keys.map(([key, what]) => el('tr', {}, el('td', {}, el('kbd', {}, key)), el('td', {}, what))))),
     el('p', { class: 'note' }, t.version(session.start.version, session.client.place)),
   )

@@ -37,13 +37,23 @@ export function headerView(session: Session, dialogs: { share: HTMLDialogElement
     ...session.start.presets.map(p => el('option', { value: p.name }, p.title)),
   )
   let opened = ''
+  /** What is open, but for its end, which going on moves. */
+  const open = () => JSON.stringify({ ...session.snapshot.scenario, until: 0 })
+  let holds = ''
+  // An experiment that was changed is not that experiment any more.
+  session.on('snapshot', () => {
+    if (opened === '' || open() === holds) return
+    presets.value = opened = ''
+    note.hidden = true
+  })
   session.on('opened', name => {
     presets.value = opened = name
+    holds = open()
     const preset = session.start.presets.find(p => p.name === name)
     note.hidden = !preset
     if (preset) words.replaceChildren(el('strong', {}, `${preset.title}. `), `${preset.notice} `, el('em', {}, `${t.next} `), preset.next)
   })
-  const open = (dialog: HTMLDialogElement) => () => dialog.showModal()
+  const door = (dialog: HTMLDialogElement) => () => dialog.showModal()
   const full = () => void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen()).catch(() => {})
   const element = el(
     'header',
@@ -51,11 +61,11 @@ export function headerView(session: Session, dialogs: { share: HTMLDialogElement
     el('h1', {}, text.title),
     el('span', { class: 'subtitle' }, text.subtitle),
     presets,
-    el('button', { type: 'button', id: 'open-share', onclick: open(dialogs.share) }, t.share),
-    el('button', { type: 'button', id: 'open-files', onclick: open(dialogs.files) }, t.files),
+    el('button', { type: 'button', id: 'open-share', onclick: door(dialogs.share) }, t.share),
+    el('button', { type: 'button', id: 'open-files', onclick: door(dialogs.files) }, t.files),
     dialogs.figures,
     document.fullscreenEnabled ? el('button', { type: 'button', class: 'wide-only', 'aria-label': t.fullscreen, title: t.fullscreen, onclick: full }, icon()) : null,
-    el('button', { type: 'button', id: 'open-help', 'aria-label': t.help, onclick: open(dialogs.help) }, '?'),
+    el('button', { type: 'button', id: 'open-help', 'aria-label': t.help, onclick: door(dialogs.help) }, '?'),
   )
   return { element, note }
 }

@@ -62,11 +62,13 @@ export async function mapView(session: Session): Promise<HTMLElement> {
       el('span', { class: 'name', style: 'left:auto;right:0;transform:none' }, t.time),
     )
     const places = roundSteps(0, scenario.length, picture.clientHeight > 200 ? 5 : 3)
+    const numbers = places.map(place => fixed(place, 0))
+    field.style.setProperty('--digits', String(Math.max(3, ...numbers.map(number => number.length))))
     y.replaceChildren(
       el('span', { class: 'name' }, session.view.riding ? t.riding : t.position),
-      ...places.map(place => {
+      ...places.map((place, k) => {
         const up = place / scenario.length
-        return el('span', { style: `top:${Math.min(97, Math.max(3, 100 - 100 * up))}%` }, fixed(place, 0))
+        return el('span', { style: `top:${Math.min(97, Math.max(3, 100 - 100 * up))}%` }, numbers[k])
       }),
     )
   }

@@ -2,7 +2,7 @@
 import { drawing, el, style } from '../dom'
 import type { ModesGrowth, Roots } from '../shared/protocol'
 import { text } from '../text'
-import { axes, frame, roundSteps, say, ticks, word } from './axes'
+import { axes, frame, room, roundSteps, say, ticks, word } from './axes'
 
 const t = text.modes
 
@@ -53,13 +53,14 @@ export function modesView() {
     const span = Math.max(Math.max(...rates) - Math.min(...rates), 1e-4)
     const low = Math.min(...rates) - 0.08 * span
     const high = Math.max(...rates) + 0.16 * span
-    const f = frame(w, h, 46)
+    const steps = roundSteps(low, high, 4)
+    const f = frame(w, h, Math.max(46, room(steps)))
     const x = (mode: number) => f.left + ((f.right - f.left) * (mode - 0.5)) / count
     const y = (rate: number) => f.bottom - ((f.bottom - f.top) * (rate - low)) / (high - low)
     c.fillStyle = style('--bad-ground')
     c.fillRect(f.left, f.top, f.right - f.left, y(0) - f.top)
     const marks = roundSteps(1, count, 6).filter(Number.isInteger)
-    axes(c, f, ticks(marks, x), ticks(roundSteps(low, high, 4), y), { x: t.axis, y: t.rate })
+    axes(c, f, ticks(marks, x), ticks(steps, y), { x: t.axis, y: t.rate })
     c.strokeStyle = style('--ink')
     c.lineWidth = 1.5
     c.beginPath()

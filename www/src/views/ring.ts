@@ -23,7 +23,7 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
   const flow = el('span')
   const density = el('span')
   const middle = el('div', { class: 'ring-middle' }, el('span', {}, t.mean), speed, kmh, flow, density)
-  const field = el('div', { class: 'ring-field', title: t.hint }, canvas, middle)
+  const field = el('div', { class: 'ring-field', title: t.hint(BRAKE) }, canvas, middle)
   const legend = legendView()
   const colour = el(
     'select',
