@@ -65,7 +65,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) chosen: &'a [Aligned],
 }
 
-/// Gaps, shortfalls and speeds of all vehicles; padded to whole chunks with vehicles again, see [`images`].
+/// Gaps, shortfalls and speeds of all vehicles; padded to whole chunks with the first vehicles again.
 #[derive(Clone, Debug)]
 pub struct Following {
     width: Width,

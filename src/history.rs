@@ -22,7 +22,7 @@ pub struct History {
 }
 
 impl History {
-    /// All displacements 0, with room to look back `steps` steps; see [`rows_for`].
+    /// All displacements 0, with room to look back `steps` steps, and one more for the step in which delays grow.
     pub fn new(vehicles: usize, steps: usize) -> Self {
         // One more than a whole number of chunks: see `close`.
         let width = padded(vehicles) + CHUNK;
