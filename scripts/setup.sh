@@ -99,7 +99,13 @@ fi
 # ---- what Rust's own tools bring ----
 
 # With the versions that its authors locked; where a mirror lacks one of them, with the newest that fit.
-install() { cargo install "$@" --locked --force || cargo install "$@" --force; }
+# Not in the project's own target folder, which the Makefile names.
+install() {
+  (
+    unset CARGO_TARGET_DIR
+    cargo install "$@" --locked --force || cargo install "$@" --force
+  )
+}
 
 if ! has_rust; then
   have rustup || fail "Rust $rust_wanted or newer is needed: install rustup (https://rustup.rs)"
