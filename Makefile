@@ -140,7 +140,7 @@ test-lint:
 test-hashes: target/hashes.json
 
 test-lint-wasm: target/hashes.json
-	cargo clippy --locked $(WASM) --lib --test web -- -D warnings
+	cargo clippy --locked $(WASM) --lib --test web --test node -- -D warnings
 
 test-documentation:
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps --lib
@@ -162,6 +162,7 @@ test-size: build
 
 test-wasm: target/hashes.json | www/node_modules/.package-lock.json
 	wasm-pack test --headless --chrome --chromedriver '$(CHROMEDRIVER)' -- --no-default-features --test web $(LOG)
+	wasm-pack test --node -- --no-default-features --test node 2>&1 | tee -a $(LOGS)/$@.log
 
 test-browser: build target/release/ringroad
 	$(NPM) run test:browser $(LOG)

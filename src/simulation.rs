@@ -17,6 +17,11 @@
 //! - A tie between two adjacent lanes is broken by a coin that is tossed at an attempt only.
 //! - Nudges move a vehicle past others as driving does: in its own lane that is a collision, in an adjacent one a
 //!   pass.
+//!
+//! # Memory
+//!
+//! A vehicle takes 8 bytes for every step that the longest delay in use looks back, and for two steps more; beside that 215
+//! bytes at most, 275 with several lanes. No step asks for memory.
 
 use crate::action::{Action, Effect, Who};
 use crate::driver::Driver;

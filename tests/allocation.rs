@@ -1,4 +1,4 @@
-//! A step asks for no memory.
+//! A step asks for no memory, and a simulation for as much a vehicle as it says.
 #![allow(unsafe_code)] // an allocator that counts is an `unsafe impl`
 
 use ringroad::scenario::{Scenario, Start};
@@ -10,19 +10,23 @@ struct Counting;
 
 thread_local! {
     static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+    static BYTES: Cell<usize> = const { Cell::new(0) };
 }
 
 // SAFETY: every call is passed on to the system's allocator as it is.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        BYTES.with(|bytes| bytes.set(bytes.get().wrapping_add(layout.size())));
         unsafe { System.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        BYTES.with(|bytes| bytes.set(bytes.get().wrapping_sub(layout.size())));
         unsafe { System.dealloc(pointer, layout) }
     }
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        BYTES.with(|bytes| bytes.set(bytes.get().wrapping_add(size).wrapping_sub(layout.size())));
         unsafe { System.realloc(pointer, layout, size) }
     }
 }
@@ -40,7 +44,9 @@ fn measure(scenario: &Scenario) -> (u64, usize) {
         simulation.step();
         changes += simulation.events().iter().filter(|e| matches!(e, Event::LaneChange { .. })).count();
     }
-    assert_eq!(simulation.step_index(), 2500, "the run did not end before");
+    // Many steps at once, too.
+    simulation.run_to(4500);
+    assert_eq!(simulation.step_index(), 4500, "the run did not end before");
     (ALLOCATIONS.with(Cell::get) - before, changes)
 }
 
@@ -66,4 +72,30 @@ fn a_step_allocates_nothing() {
     let (allocations, changes) = measure(&scenario);
     assert!(changes > 20, "{changes} lane changes");
     assert_eq!(allocations, 0, "two lanes");
+}
+
+/// As the documentation of `simulation` says.
+#[test]
+fn memory_per_vehicle_is_what_is_stated() {
+    let per_vehicle = |lanes: usize, delay: usize| {
+        let n = 10_000;
+        let length = 20.0 * n as f64 / lanes as f64;
+        let mut scenario = Scenario { vehicles: n, lanes, length, ..Scenario::default() };
+        scenario.driver.reaction_time = delay as f64 * scenario.time_step;
+        let before = BYTES.with(Cell::get);
+        let mut simulation = Simulation::new(&scenario).unwrap();
+        simulation.run_to(200);
+        let bytes = BYTES.with(Cell::get).wrapping_sub(before);
+        drop(simulation);
+        bytes as f64 / n as f64
+    };
+    let measured = [(1, 0), (1, 50), (1, 150), (2, 0), (2, 50)].map(|(lanes, delay)| {
+        let rest = per_vehicle(lanes, delay) - 8.0 * (delay + 2) as f64;
+        println!("{lanes} lanes, {delay} steps: {rest:.1} bytes beside the history");
+        (lanes, rest)
+    });
+    for (lanes, rest) in measured {
+        let stated = if lanes == 1 { 215.0 } else { 275.0 };
+        assert!(rest <= stated && rest > 0.9 * stated, "{lanes} lanes: {rest}");
+    }
 }

@@ -69,6 +69,19 @@ pub fn batch() -> String {
     digest(&plan.summary(&runs).unwrap().to_csv_of_batch(&plan))
 }
 
+/// Holds what is computed here against what the native test wrote just before.
+#[cfg(target_arch = "wasm32")]
+pub fn are_native() {
+    let native: BTreeMap<String, String> =
+        serde_json::from_str(include_str!(env!("RINGROAD_HASHES"))).unwrap();
+    let cases = cases();
+    assert_eq!(cases.len() + 1, native.len());
+    assert_eq!(batch(), native["batch"]);
+    for (name, scenario, measurement) in cases {
+        assert_eq!(hash(Simulation::new(&scenario).unwrap(), &measurement), native[name], "{name}");
+    }
+}
+
 fn digest(csv: &str) -> String {
     let hash = csv.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
