@@ -416,6 +416,12 @@ impl Following {
         self.common = drivers.iter().all(|d| Law::of(d) == first).then_some(first);
     }
 
+    /// Whether all vehicles follow the same law.
+    #[inline]
+    pub(crate) fn has_one_law(&self) -> bool {
+        self.common.is_some()
+    }
+
     /// Has the vehicle's shortfall evaluated in full next time.
     pub fn invalidate(&mut self, j: usize) {
         for j in self.images(j) {
@@ -465,7 +471,7 @@ impl Following {
     }
 
     /// So many steps of `dt` seconds at once, no more than the `delay` that all have, after step `first`; the leader of
-    /// j is j + 1. False, with nothing done, where drivers have laws of their own.
+    /// j is j + 1, and all have one law: see [`Self::has_one_law`].
     pub(crate) fn drive_on(
         &mut self,
         history: &mut History,
@@ -474,12 +480,11 @@ impl Following {
         dt: f64,
         first: u64,
         steps: usize,
-    ) -> bool {
-        let Some(law) = self.common else { return false };
+    ) {
+        let law = self.common.expect("one law of all vehicles");
         debug_assert!(steps <= delay, "{steps} steps within a delay of {delay}");
         drive_on(self.width, history, delay, offset, law, dt, first, steps, &mut self.state);
         history.catch_up(steps);
-        true
     }
 
     /// The smallest true headway at the displacements `s`, m, where the leader of j is j + 1.

@@ -298,8 +298,9 @@ impl<S: Sampler> Simulation<S> {
     /// As many steps at once as bring nothing but driving, up to that step, where equal drivers follow one another on one
     /// lane; false if there are too few to be worth it.
     fn drive_on(&mut self, step: u64) -> bool {
+        let in_order = self.ring.is_in_order() && self.following.has_one_law();
         let delay = match self.delays.few() {
-            &[delay] if self.ring.is_in_order() && self.delays.are_settled() => delay,
+            &[delay] if in_order && self.delays.are_settled() => delay,
             _ => return false,
         };
         let due = self.agenda.last().map_or(u64::MAX, |&(due, _)| due.saturating_sub(1));
@@ -328,9 +329,7 @@ impl<S: Sampler> Simulation<S> {
         }
         let steps = steps.min(possible);
         let (offset, dt) = (self.ring.offsets(), self.scenario.time_step);
-        if !self.following.drive_on(&mut self.history, delay, offset, dt, self.step, steps as usize) {
-            return false;
-        }
+        self.following.drive_on(&mut self.history, delay, offset, dt, self.step, steps as usize);
         self.odometer.advance_at_most(steps as f64 * farthest);
         self.step += steps;
         self.events.clear();
