@@ -10,9 +10,9 @@ fn main() {}
 mod cases {
     use criterion::Criterion;
     use ringroad::scenario::Scenario;
-    use ringroad::stability::calm::{calm_with, parse_changes};
-    use ringroad::stability::plane::Plane;
     use ringroad::stability::report::Report;
+    use ringroad::stability::stability_diagram::Plane;
+    use ringroad::stability::stabilizing_drivers::{calm_with, parse_changes};
     use std::hint::black_box;
 
     fn scenario(vehicles: usize, exceptions: &[&str]) -> Scenario {

@@ -9,9 +9,9 @@ fn main() {}
 #[cfg(not(target_arch = "wasm32"))]
 mod cases {
     use criterion::{Bencher, BenchmarkId, Criterion};
+    use ringroad::numerics::simd::Width;
     use ringroad::scenario::Scenario;
     use ringroad::simulation::Simulation;
-    use ringroad::vector::Width;
     use serde::de::Error;
     use serde::{Deserialize, Deserializer};
     use std::hint::black_box;

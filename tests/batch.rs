@@ -5,8 +5,8 @@ use ringroad::batch::record::{self, Record};
 use ringroad::batch::{Header, Plan, Run, Shard, Vary, run_all};
 use ringroad::error::Invalid;
 use ringroad::measurement::Measurement;
-use ringroad::preset::preset;
 use ringroad::scenario::Scenario;
+use ringroad::scenario::presets::preset;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -267,7 +267,7 @@ fn a_summary_holds_what_the_runs_say() {
     let (table, summary) = (plan.table(&runs), plan.summary(&runs).unwrap());
     let speeds = table.floats("mean_speed_m_per_s").unwrap();
     let quantities = match &summary.columns().iter().find(|c| c.name == "quantity").unwrap().values {
-        ringroad::table::Values::Text(v) => v.clone(),
+        ringroad::format::table::Values::Text(v) => v.clone(),
         _ => unreachable!(),
     };
     let places: Vec<_> = (0..summary.rows()).filter(|&k| quantities[k] == "mean_speed_m_per_s").collect();
@@ -305,7 +305,7 @@ fn a_summary_over_time_counts_the_runs_that_go_on() {
         let [times, delays] = ["time_s", "reaction_time_s"].map(|name| summary.floats(name).unwrap());
         let counts = summary.wholes("runs").unwrap();
         let quantities = match &summary.columns().iter().find(|c| c.name == "quantity").unwrap().values {
-            ringroad::table::Values::Text(v) => v.clone(),
+            ringroad::format::table::Values::Text(v) => v.clone(),
             _ => unreachable!(),
         };
         for k in 0..summary.rows() {
@@ -328,8 +328,8 @@ fn every_measurement_has_the_columns_that_were_announced() {
         let plan = Plan::new(scenario.clone(), vec![], 2, measurement.clone()).unwrap();
         let mut probes = [measurement.probe(&scenario).unwrap()];
         let mut simulation = ringroad::simulation::Simulation::new(&scenario).unwrap();
-        ringroad::probe::measure(&mut simulation, &mut probes, &mut |_| true);
-        let names = |columns: &[ringroad::table::Column]| -> Vec<String> {
+        ringroad::measurement::probe::measure(&mut simulation, &mut probes, &mut |_| true);
+        let names = |columns: &[ringroad::format::table::Column]| -> Vec<String> {
             columns.iter().map(|c| c.name.clone()).collect()
         };
         assert_eq!(names(&plan.columns()), names(probes[0].table().columns()), "{}", measurement.name());

@@ -85,7 +85,7 @@ fn numbers_read_back_to_the_same_bits() {
     ]);
     let scenario = Scenario {
         until: 30.0,
-        driver: ringroad::driver::Driver { reaction_time: 0.5, ..Default::default() },
+        driver: ringroad::scenario::driver::Driver { reaction_time: 0.5, ..Default::default() },
         actions: vec!["at=0:1:nudge=1".parse().unwrap()],
         ..Scenario::default()
     };
@@ -101,7 +101,7 @@ fn numbers_read_back_to_the_same_bits() {
 fn every_parameter_is_an_option() {
     let parameters: Value = serde_json::from_str(&answer(&["parameters", "--json"])).unwrap();
     let parameters = parameters.as_array().unwrap();
-    assert_eq!(parameters.len(), ringroad::parameters::PARAMETERS.len());
+    assert_eq!(parameters.len(), ringroad::scenario::parameters::PARAMETERS.len());
     let text = answer(&["parameters"]);
     for parameter in parameters {
         let name = parameter["name"].as_str().unwrap();

@@ -1,9 +1,9 @@
 //! What statistics cannot see: lane changing where everything is exact.
 
-use ringroad::frustration::Sampler;
-use ringroad::random::Generator;
-use ringroad::ring::Side;
+use ringroad::numerics::random::Generator;
 use ringroad::scenario::{Scenario, Start};
+use ringroad::simulation::frustration::Sampler;
+use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 
 /// Attempts a change in every step in which there is frustration; the coin falls as told.

@@ -2,9 +2,9 @@
 //! must hold whatever the number of runs.
 #![cfg(not(target_arch = "wasm32"))]
 
-use ringroad::claim::{Claim, Verdict};
-use ringroad::figure::{FIGURES, Figure, Outcome, Piece, Size};
-use ringroad::table::Provenance;
+use ringroad::format::table::Provenance;
+use ringroad::reproduction::claim::{Claim, Verdict};
+use ringroad::reproduction::{FIGURES, Figure, Outcome, Piece, Size};
 use std::sync::LazyLock;
 
 static OUTCOMES: LazyLock<Vec<(&'static Figure, Outcome)>> =

@@ -5,8 +5,8 @@
 #[path = "common/bits.rs"]
 mod bits;
 
+use ringroad::numerics::simd::Width;
 use ringroad::simulation::Simulation;
-use ringroad::vector::Width;
 use std::collections::BTreeMap;
 
 #[test]

@@ -7,10 +7,10 @@ use common::scenarios::{self, scenarios};
 use common::twin::{Twin, canonical};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-use ringroad::action::Action;
-use ringroad::frustration::{ExponentialClock, Literal, Sampler};
-use ringroad::ring::Side;
 use ringroad::scenario::Scenario;
+use ringroad::scenario::action::Action;
+use ringroad::simulation::frustration::{ExponentialClock, Literal, Sampler};
+use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 
 /// How often something happened over all scenarios: a comparison of nothing with nothing would pass too.

@@ -1,7 +1,7 @@
 //! Perceived headways against a history that forgets nothing, with reaction times that change on the way.
 
-use ringroad::action::Action;
 use ringroad::scenario::Scenario;
+use ringroad::scenario::action::Action;
 use ringroad::simulation::Simulation;
 
 /// Reaction times (s) of one vehicle and the time from which they hold.

@@ -3,8 +3,8 @@
 mod common;
 
 use common::theory;
-use ringroad::preset::{preset, presets};
 use ringroad::scenario::Scenario;
+use ringroad::scenario::presets::{preset, presets};
 use ringroad::simulation::Simulation;
 
 fn end(name: &str) -> Simulation {

@@ -3,12 +3,12 @@
 mod common;
 
 use common::theory;
-use ringroad::driver::Driver;
+use ringroad::format::table::{Provenance, Table, Values};
 use ringroad::measurement::Measurement;
-use ringroad::probe::{Probe, act, measure};
+use ringroad::measurement::probe::{Probe, act, measure};
+use ringroad::scenario::driver::Driver;
 use ringroad::scenario::{Scenario, Start};
 use ringroad::simulation::Simulation;
-use ringroad::table::{Provenance, Table, Values};
 
 /// The table of a whole run.
 fn table(scenario: &Scenario, measurement: &str) -> Table {
@@ -336,7 +336,7 @@ fn cyclic_growth_is_that_of_the_speeds() {
         assert_eq!(t.floats("f_m_per_s").unwrap()[n], equilibrium - smallest);
         points.push((n as f64 + 1.0, equilibrium - smallest));
     }
-    let fit = ringroad::fit::exponential(&points).unwrap();
+    let fit = ringroad::numerics::least_squares::exponential(&points).unwrap();
     assert_eq!(t.floats("growth_rate_per_period").unwrap()[0], fit.rate);
     assert!(fit.rate < 0.0, "stable: {fit:?}");
     assert_eq!((t.wholes("vehicle").unwrap()[0], t.wholes("periods").unwrap()[0]), (11, 4));
@@ -439,7 +439,8 @@ fn an_outcome_is_there_when_the_run_has_ended() {
 /// The means of an overview are over the time between its rows: together they are those of the outcome.
 #[test]
 fn an_overview_adds_up_to_the_outcome() {
-    let scenario = Scenario { until: 60.0, ..ringroad::preset::preset("load-balance").unwrap().scenario };
+    let scenario =
+        Scenario { until: 60.0, ..ringroad::scenario::presets::preset("load-balance").unwrap().scenario };
     let overview = table(&scenario, r#"{"table":"overview","every":5}"#);
     let outcome = table(&scenario, r#"{"table":"outcome"}"#);
     for name in ["mean_speed_m_per_s", "mean_flow_veh_per_s"] {

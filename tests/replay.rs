@@ -2,12 +2,12 @@
 #![cfg(not(target_arch = "wasm32"))]
 
 use proptest::prelude::*;
-use ringroad::action::Action;
+use ringroad::format::table::Provenance;
 use ringroad::measurement::Measurement;
-use ringroad::probe::{Probe, act, measure};
+use ringroad::measurement::probe::{Probe, act, measure};
 use ringroad::scenario::Scenario;
+use ringroad::scenario::action::Action;
 use ringroad::simulation::Simulation;
-use ringroad::table::Provenance;
 
 /// Something that a person can do, to one or several of `vehicles`.
 fn effect(vehicles: usize) -> impl Strategy<Value = String> {

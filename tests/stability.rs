@@ -1,17 +1,17 @@
 //! Linear theory against simulation: growth rates mode by mode, equal drivers and drivers that differ.
 
 use nalgebra::{DMatrix, DVector};
-use ringroad::driver::{Driver, equilibrium};
-use ringroad::fit;
-use ringroad::probe::growth::{Growth, Linear};
-use ringroad::probe::{Probe, measure};
+use ringroad::measurement::modal_growth::{Growth, Linear};
+use ringroad::measurement::probe::{Probe, measure};
+use ringroad::numerics::least_squares;
 use ringroad::scenario::Scenario;
+use ringroad::scenario::driver::{Driver, equilibrium};
 use ringroad::simulation::Simulation;
 use ringroad::stability::Complex64;
-use ringroad::stability::calm::{calm_with, parse_changes};
-use ringroad::stability::equal::{EqualRing, Mode, Time};
+use ringroad::stability::driver_classes::{Ring, slopes};
+use ringroad::stability::homogeneous::{EqualRing, Mode, Time};
 use ringroad::stability::report::Report;
-use ringroad::stability::ring::{Ring, slopes};
+use ringroad::stability::stabilizing_drivers::{calm_with, parse_changes};
 
 /// Within 1 % or three standard errors.
 fn agrees(measured: f64, error: f64, predicted: f64) -> bool {
@@ -167,10 +167,10 @@ fn dominant(scenario: &Scenario) -> (Mode, f64, f64) {
         let mut v = Complex64::ONE;
         for j in 0..n {
             let turn = Complex64::new(libm::cos(s.im * delays[j]), libm::sin(s.im * delays[j]));
-            let power = turn * ringroad::exp::exp(s.re * delays[j]);
+            let power = turn * ringroad::numerics::exp::exp(s.re * delays[j]);
             let step =
                 Complex64::new(libm::cos(s.im * scenario.time_step), libm::sin(s.im * scenario.time_step))
-                    * ringroad::exp::exp(s.re * scenario.time_step);
+                    * ringroad::numerics::exp::exp(s.re * scenario.time_step);
             let u = 1.0 + (step - 1.0) / scenario.time_step * power / slopes[j];
             patterns[(j, column)] = (u - 1.0) * v;
             if conjugates == 2 {
@@ -200,7 +200,7 @@ fn dominant(scenario: &Scenario) -> (Mode, f64, f64) {
         points.push((simulation.time(), libm::log(libm::hypot(amplitude.re, amplitude.im))));
         simulation.run_to(simulation.step_index() + scenario.steps(1.0));
     }
-    let line = fit::line(&points).unwrap();
+    let line = least_squares::line(&points).unwrap();
     (fastest, line.slope, line.slope_error)
 }
 

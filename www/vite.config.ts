@@ -1,4 +1,4 @@
-import { readFileSync } from 'node:fs'
+import { existsSync, readFileSync } from 'node:fs'
 import { fileURLToPath } from 'node:url'
 import { defineConfig, type Plugin } from 'vite'
 import { viteSingleFile } from 'vite-plugin-singlefile'
@@ -11,6 +11,17 @@ const parts: Plugin = {
   transformIndexHtml: {
     order: 'pre',
     handler: html => html.replace(/^ *<!-- part: (\w+) -->\n/gm, (_, name: string) => readFileSync(at(`src/parts/${name}.html`), 'utf8')),
+  },
+}
+
+// In the one-file page `x.inline.ts` takes the place of every `x.ts` that stands beside it.
+const inline: Plugin = {
+  name: 'inline',
+  enforce: 'pre',
+  async resolveId(source, importer, options) {
+    const resolved = await this.resolve(source, importer, { ...options, skipSelf: true })
+    const instead = resolved?.id.replace(/\.ts$/, '.inline.ts')
+    return instead && instead !== importer && instead !== resolved?.id && existsSync(instead) ? instead : null
   },
 }
 
@@ -35,8 +46,7 @@ export default defineConfig(({ mode }) => {
   const one = mode === 'one-file'
   return {
     base: './',
-    resolve: one ? { alias: [{ find: /^\.\.\/(place|later)$/, replacement: at('src/$1.inline.ts') }] } : {},
-    plugins: one ? [parts, viteSingleFile(), rename] : [parts, plainImport],
+    plugins: one ? [parts, inline, viteSingleFile(), rename] : [parts, plainImport],
     build: {
       target: 'es2022',
       outDir: '../dist',

@@ -2,9 +2,9 @@
 
 use crate::lanes::{Attempt, Gap, Lanes, N, Order, Passes, Reading, Rise};
 use rayon::prelude::*;
-use ringroad::claim::{Estimate, Expected};
-use ringroad::driver::Driver;
-use ringroad::figure::{Figure, Size};
+use ringroad::reproduction::claim::{Estimate, Expected};
+use ringroad::reproduction::{Figure, Size};
+use ringroad::scenario::driver::Driver;
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

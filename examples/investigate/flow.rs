@@ -1,6 +1,6 @@
 //! (d) The flow of 1668 vehicles an hour at 25 vehicles a kilometre.
 
-use ringroad::driver::Driver;
+use ringroad::scenario::driver::Driver;
 
 pub fn main() {
     let driver = Driver::default();

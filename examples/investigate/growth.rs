@@ -1,9 +1,9 @@
 //! (b) The cyclic growth rate k against vehicle, kind and number of periods, and fit.
 
 use rayon::prelude::*;
-use ringroad::driver::Driver;
-use ringroad::fit;
+use ringroad::numerics::least_squares;
 use ringroad::scenario::Scenario;
+use ringroad::scenario::driver::Driver;
 use ringroad::simulation::Simulation;
 
 const PAPER: [f64; 3] = [-1.073, -0.790, 0.443];
@@ -110,9 +110,9 @@ pub fn main() {
                                     let points: Vec<_> =
                                         used.iter().enumerate().map(|(n, &d)| (n as f64 + 1.0, d)).collect();
                                     let fit = if logarithms {
-                                        fit::log_linear(&points)
+                                        least_squares::log_linear(&points)
                                     } else {
-                                        fit::exponential(&points)
+                                        least_squares::exponential(&points)
                                     };
                                     fit.map(|f| f.rate)
                                 };

@@ -4,7 +4,7 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
-use ringroad::exp::exp_within;
+use ringroad::numerics::exp::exp_within;
 use std::fmt;
 
 pub const N: usize = 50;

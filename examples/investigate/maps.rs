@@ -5,8 +5,8 @@ use crate::balance::{
     those_that_meet,
 };
 use crate::lanes::Reading;
-use ringroad::claim::{Estimate, Expected};
 use ringroad::plot::{Axis, Layer, Panel, Plot};
+use ringroad::reproduction::claim::{Estimate, Expected};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;

@@ -1,11 +1,11 @@
 //! Which runs a batch consists of.
 
-use super::grid::Vary;
-use crate::action::Who;
+use super::parameter_values::Vary;
 use crate::error::Invalid;
 use crate::measurement::Measurement;
-use crate::parameters::{Parameter, quoted};
 use crate::scenario::Scenario;
+use crate::scenario::action::Who;
+use crate::scenario::parameters::{Parameter, quoted};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

@@ -8,8 +8,8 @@
 use super::plan::Plan;
 use super::run::Run;
 use crate::error::Invalid;
-use crate::parameters::{opening, quoted};
-use crate::table::{Column, VERSION, Values};
+use crate::format::table::{Column, VERSION, Values};
+use crate::scenario::parameters::{opening, quoted};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;

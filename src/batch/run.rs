@@ -2,9 +2,9 @@
 
 use super::plan::Plan;
 use crate::error::Invalid;
-use crate::probe::measure;
+use crate::format::table::{Column, Values};
+use crate::measurement::probe::measure;
 use crate::simulation::Simulation;
-use crate::table::{Column, Values};
 use std::sync::Mutex;
 
 /// What came out of one run.

@@ -2,13 +2,13 @@
 //! quantity, at every time.
 
 use super::plan::Plan;
+use super::rows::OF_EVERY_RUN;
 use super::run::Run;
-use super::statistics::{QUANTILES, Statistics, Student};
-use super::tables::OF_EVERY_RUN;
 use crate::error::Invalid;
+use crate::format::table::{Column, Table, Values};
 use crate::measurement::Measurement;
-use crate::parameters::quoted;
-use crate::table::{Column, Table, Values};
+use crate::numerics::statistics::{QUANTILES, Statistics, Student};
+use crate::scenario::parameters::quoted;
 use std::collections::BTreeMap;
 
 /// The columns that say what a row of a measurement is of, where the rows of different runs correspond.
@@ -98,7 +98,7 @@ impl Plan {
                 samples.insert(Vec::new(), vec![Vec::new(); measured.len()]);
             }
             for run in &members {
-                for row in 0..super::tables::rows(run) {
+                for row in 0..super::rows::rows(run) {
                     if !self.is_regular(run, row, &columns) {
                         continue;
                     }

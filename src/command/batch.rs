@@ -12,7 +12,7 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::batch::record::{self, Record};
 use ringroad::batch::{Header, Plan, Run, Shard, Vary, run_all};
 use ringroad::error::Invalid;
-use ringroad::table::plan_from_csv;
+use ringroad::format::table::plan_from_csv;
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};

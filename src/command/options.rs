@@ -4,10 +4,10 @@
 use super::Failure;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::error::Invalid;
-use ringroad::parameters::PARAMETERS;
-use ringroad::preset::{preset, presets};
+use ringroad::format::table::scenario_of_file;
 use ringroad::scenario::Scenario;
-use ringroad::table::scenario_of_file;
+use ringroad::scenario::parameters::PARAMETERS;
+use ringroad::scenario::presets::{preset, presets};
 use std::fs;
 use std::io::{self, Read};
 

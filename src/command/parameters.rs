@@ -3,7 +3,7 @@
 use super::output::Output;
 use super::{Failure, Subcommand};
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use ringroad::parameters::PARAMETERS;
+use ringroad::scenario::parameters::PARAMETERS;
 use std::fmt::Write as _;
 use std::process::ExitCode;
 

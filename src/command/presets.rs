@@ -3,7 +3,7 @@
 use super::output::Output;
 use super::{Failure, Subcommand};
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use ringroad::preset::presets;
+use ringroad::scenario::presets::presets;
 use std::fmt::Write as _;
 use std::process::ExitCode;
 

@@ -5,7 +5,7 @@ use super::output::Output;
 use super::run::tabulate;
 use super::{Failure, Subcommand};
 use clap::{Arg, ArgMatches, Command};
-use ringroad::table::{Provenance, VERSION};
+use ringroad::format::table::{Provenance, VERSION};
 use std::process::ExitCode;
 
 /// `ringroad replay`.

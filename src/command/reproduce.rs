@@ -3,8 +3,8 @@
 use super::output::Output;
 use super::{Failure, Subcommand, progress};
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use ringroad::claim::{Claim, to_markdown, to_text};
-use ringroad::figure::{FIGURES, Figure, Outcome, Size};
+use ringroad::reproduction::claim::{Claim, to_markdown, to_text};
+use ringroad::reproduction::{FIGURES, Figure, Outcome, Size};
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;

@@ -6,11 +6,11 @@ use super::summary::{Watched, summary};
 use super::{Failure, Subcommand, progress};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::error::Invalid;
+use ringroad::format::table::Table;
+use ringroad::measurement::probe::measure;
 use ringroad::measurement::{Measurement, SETTINGS};
-use ringroad::probe::measure;
 use ringroad::scenario::Scenario;
 use ringroad::simulation::{Collision, Simulation};
-use ringroad::table::Table;
 use std::process::ExitCode;
 
 /// `ringroad run`.

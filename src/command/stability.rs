@@ -6,12 +6,14 @@ use super::{Failure, Subcommand};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::error::Invalid;
 use ringroad::scenario::Scenario;
-use ringroad::stability::calm::{Calming, calm_with, parse_changes};
-use ringroad::stability::equal::Time;
-use ringroad::stability::factors::Factor;
-use ringroad::stability::inverse::{first_jammed, most_vehicles, stable_sensitivities, stable_vehicles};
-use ringroad::stability::plane::{Sweep, sweep};
+use ringroad::stability::discrete_roots::Factor;
+use ringroad::stability::homogeneous::Time;
 use ringroad::stability::report::{ModeRoot, Report, leading_factors, leading_roots};
+use ringroad::stability::stability_diagram::{Sweep, sweep};
+use ringroad::stability::stabilizing_drivers::{Calming, calm_with, parse_changes};
+use ringroad::stability::stable_ranges::{
+    first_jammed, most_vehicles, stable_sensitivities, stable_vehicles,
+};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::process::ExitCode;

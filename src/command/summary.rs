@@ -1,8 +1,8 @@
 //! The summary of a run as JSON.
 
+use ringroad::format::table::VERSION;
 use ringroad::scenario::Scenario;
 use ringroad::simulation::Simulation;
-use ringroad::table::VERSION;
 use serde::Serialize;
 
 /// Vehicles and lanes are numbered from 1.

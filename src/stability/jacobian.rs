@@ -5,7 +5,7 @@
 //! diagonalizable: its characteristic polynomial is that of −c times M = I + A + B, and
 //! det(M − μI) = Σ_{k<N} (1 − μ)^k = (1 − (1 − μ)^N)/μ, whose roots are 1 − e^{2πiq/N}, q = 1 … N − 1.
 
-use super::complex::Complex64;
+use crate::numerics::complex::Complex64;
 use nalgebra::DMatrix;
 
 /// J of a ring whose vehicle j has the slope c_j (1/s), in the order of the ring; (N − 1) × (N − 1).
@@ -33,9 +33,9 @@ pub fn eigenvalues(matrix: DMatrix<f64>) -> Option<Vec<Complex64>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::complex::norm;
-    use super::super::equal::EqualRing;
+    use super::super::homogeneous::EqualRing;
     use super::*;
+    use crate::numerics::complex::norm;
 
     /// Each closed form has one numerical eigenvalue within 1e-9, and no two share one.
     #[test]

@@ -2,31 +2,29 @@
 //!
 //! | file | what is in it |
 //! |---|---|
-//! | [`equal`] | equal drivers: eigenvalues, characteristic roots, critical reaction times, the fastest mode |
-//! | [`factors`] | equal drivers: all growth factors of the difference equation |
+//! | [`homogeneous`] | equal drivers: eigenvalues, characteristic roots, critical reaction times, the fastest mode |
+//! | [`discrete_roots`] | equal drivers: all growth factors of the difference equation |
 //! | [`jacobian`] | the Jacobian as a matrix and its numerical eigenvalues |
-//! | [`lambert`] | the Lambert W function on all branches |
-//! | [`ring`] | what the theory asks of drivers: slopes and delays |
-//! | [`mixed`] | drivers that differ: roots by continuation, counted by the argument principle |
-//! | [`calm`] | how many drivers of another kind calm a ring |
-//! | [`inverse`] | which numbers of vehicles, which sensitivities are stable |
-//! | [`plane`] | critical reaction times and growth rates over the number of vehicles; sweeps |
-//! | [`report`] | the verdict |
-//! | `complex` | functions of complex numbers, the same bits everywhere |
+//! | [`driver_classes`] | what the theory asks of drivers: slopes and delays |
+//! | [`heterogeneous`] | drivers that differ: roots by continuation, counted by the argument principle |
+//! | [`stabilizing_drivers`] | how many drivers of another kind calm a ring |
+//! | [`stable_ranges`] | which numbers of vehicles, which sensitivities are stable |
+//! | [`stability_diagram`] | critical reaction times and growth rates over the number of vehicles; sweeps |
+//! | [`report`] | everything the theory says of a lane |
+//! | [`summary`] | the few numbers of the page's sentence |
 //!
-//! Two systems are spoken of everywhere ([`equal::Time`]): the differential equation, and the difference equation that a
+//! Two systems are spoken of everywhere ([`homogeneous::Time`]): the differential equation, and the difference equation that a
 //! simulation with its steps solves. The verdict is about the second.
 
-pub mod calm;
-pub(crate) mod complex;
-pub mod equal;
-pub mod factors;
-pub mod inverse;
+pub mod discrete_roots;
+pub mod driver_classes;
+pub mod heterogeneous;
+pub mod homogeneous;
 pub mod jacobian;
-pub mod lambert;
-pub mod mixed;
-pub mod plane;
 pub mod report;
-pub mod ring;
+pub mod stability_diagram;
+pub mod stabilizing_drivers;
+pub mod stable_ranges;
+pub mod summary;
 
 pub use num_complex::Complex64;

@@ -1,12 +1,12 @@
 //! The verdict on a scenario, or on traffic as it is now: what `ringroad stability` prints and what the page's verdict
 //! line speaks from.
 
-use super::complex::{Complex64, norm};
-use super::equal::{Mode, Time};
-use super::factors::Factor;
-use super::ring::Ring;
-use crate::driver::{Driver, equilibrium};
+use super::discrete_roots::Factor;
+use super::driver_classes::Ring;
+use super::homogeneous::{Mode, Time};
+use crate::numerics::complex::{Complex64, norm};
 use crate::scenario::Scenario;
+use crate::scenario::driver::{Driver, equilibrium};
 use crate::simulation::Simulation;
 use serde::Serialize;
 use std::f64::consts::{LN_2, PI};

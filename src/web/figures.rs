@@ -2,9 +2,9 @@
 //! all pieces together give. Workers each do some pieces; any of them can put them together.
 
 use super::refusal;
-use crate::claim::{Claim, Verdict};
 use crate::error::Invalid;
-use crate::figure::{FIGURES, Figure, Outcome, Piece, Size, Work};
+use crate::reproduction::claim::{Claim, Verdict};
+use crate::reproduction::{FIGURES, Figure, Outcome, Piece, Size, Work};
 use js_sys::Float64Array;
 use serde_json::{Value, json};
 use wasm_bindgen::JsError;

@@ -2,20 +2,20 @@
 //! only step.
 
 use super::refusal;
-use crate::action::Action;
-use crate::colour::{Ground, Quantity, Rgb, Scale};
 use crate::error::Invalid;
-use crate::json::{self, Json, Object};
-use crate::link;
+use crate::format::json::{self, Json, Object};
+use crate::format::table::{VERSION, scenario_of_file};
 use crate::live::{BINS, COLUMNS, Column, Live, opening};
 use crate::measurement::Measurement;
-use crate::parameters::{PARAMETERS, quoted};
-use crate::preset;
-use crate::probe::Probe;
+use crate::measurement::probe::Probe;
+use crate::plot::colour::{Ground, Quantity, Rgb, Scale};
 use crate::scenario::Scenario;
+use crate::scenario::action::Action;
+use crate::scenario::link;
+use crate::scenario::parameters::{PARAMETERS, quoted};
+use crate::scenario::presets;
 use crate::simulation::Simulation;
-use crate::table::{VERSION, scenario_of_file};
-use crate::verdict::Verdict;
+use crate::stability::summary::Verdict;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen::{Clamped, JsError};
 use web_sys::{ImageData, OffscreenCanvas, OffscreenCanvasRenderingContext2d};

@@ -3,9 +3,9 @@
 use ringroad::batch::{Plan, Run, run_all};
 use ringroad::error::Invalid;
 use ringroad::measurement::Measurement;
-use ringroad::preset::preset;
-use ringroad::probe::measure;
+use ringroad::measurement::probe::measure;
 use ringroad::scenario::Scenario;
+use ringroad::scenario::presets::preset;
 use ringroad::simulation::Simulation;
 use std::collections::BTreeMap;
 

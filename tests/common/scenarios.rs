@@ -3,8 +3,8 @@
 
 use proptest::prelude::*;
 use proptest::sample::select;
-use ringroad::action::{Action, Effect, Exception, Who};
-use ringroad::parameters::Parameter;
+use ringroad::scenario::action::{Action, Effect, Exception, Who};
+use ringroad::scenario::parameters::Parameter;
 use ringroad::scenario::{Scenario, Start};
 use std::ops::RangeInclusive;
 

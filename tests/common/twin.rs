@@ -5,12 +5,12 @@
 //! What the vehicles drive in a step is checked against the law of speed and then taken over from the fast code to
 //! the last bit; so the comparison does not depend on how an exponential is rounded.
 
-use ringroad::action::{Action, Effect, Who};
-use ringroad::driver::Driver;
-use ringroad::frustration::{EQUAL, Sampler};
-use ringroad::random::{Generator, Stream};
-use ringroad::ring::Side;
+use ringroad::numerics::random::{Generator, Stream};
+use ringroad::scenario::action::{Action, Effect, Who};
+use ringroad::scenario::driver::Driver;
 use ringroad::scenario::{Scenario, Start};
+use ringroad::simulation::frustration::{EQUAL, Sampler};
+use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 
 /// A vehicle ahead: it is `constant + s_it − s_own` metres away.

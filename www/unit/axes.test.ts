@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest'
-import { labels, room, roundSteps } from '../src/views/axes'
+import { labels, room, roundSteps } from '../src/charts/axes'
 
 test('numbers at an axis differ, and stand in the room that they get', () => {
   expect(labels(roundSteps(-0.0012, 0.0004, 4))).toEqual(['−0.001', '−0.0005', '0'])

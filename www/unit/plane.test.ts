@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest'
-import { WORD, spot } from '../src/views/axes'
-import { TO, colour, rateAt } from '../src/views/growth'
+import { WORD, spot } from '../src/charts/axes'
+import { TO, colour, rateAt } from '../src/views/stability/growth_map'
 
 test('a word lies within its region and leaves the point free, or is left out', () => {
   const [top, bottom] = [25, 155]

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest'
-import { significant } from '../src/format'
-import type { Field } from '../src/shared/protocol'
-import { nearest, step, words } from '../src/views/readout'
+import { significant } from '../src/text/format'
+import type { Field } from '../src/core/protocol'
+import { nearest, step, words } from '../src/charts/readout'
 
 const curve = (name: string, down: number[]) => ({
   kind: 'curve' as const,

@@ -1,7 +1,7 @@
 import { beforeEach, expect, test, vi } from 'vitest'
-import { type Client, Cancelled, Refusal } from '../src/client/client'
-import { Session, append } from '../src/session'
-import type { Answer, Ask, Frame, Name, Snapshot, Start } from '../src/shared/protocol'
+import { type Client, Cancelled, Refusal } from '../src/core/client'
+import { Session, append } from '../src/app/session'
+import type { Answer, Ask, Frame, Name, Snapshot, Start } from '../src/core/protocol'
 
 /** A client that answers from a table and remembers what it was asked. */
 class FakeClient implements Client {

@@ -1,11 +1,11 @@
 import { expect, test } from 'vitest'
-import { readHash } from '../src/address'
-import { exactly, fixed, span } from '../src/format'
-import type { Verdict } from '../src/shared/protocol'
+import { readHash } from '../src/app/url'
+import { exactly, fixed, span } from '../src/text/format'
+import type { Verdict } from '../src/core/protocol'
 import { en } from '../src/text/en'
 import { inWords } from '../src/views/actions'
 import { shown } from '../src/views/controls'
-import { roundSteps } from '../src/views/axes'
+import { roundSteps } from '../src/charts/axes'
 
 test('numbers have as many digits as mean something', () => {
   expect(fixed(1.5, 3)).toBe('1.5')

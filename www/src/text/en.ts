@@ -1,7 +1,7 @@
 // Every text that a person reads on the page. The core's refusals come as they are; a second language is a
 // second object of this type.
-import { exactly, fixed, span, unit } from '../format'
-import type { Growth, Verdict } from '../shared/protocol'
+import { exactly, fixed, span, unit } from './format'
+import type { Growth, Verdict } from '../core/protocol'
 
 const seconds = (s: number) => unit(fixed(s, 3), 's')
 /** A critical reaction time; none where every one is stable. */

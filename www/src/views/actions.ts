@@ -1,8 +1,8 @@
 // What was done to the traffic, in words; each can be taken back.
-import { el } from '../dom'
-import { unit } from '../format'
-import type { Session } from '../session'
-import type { Parameter } from '../shared/protocol'
+import { el } from '../ui/dom'
+import { unit } from '../text/format'
+import type { Session } from '../app/session'
+import type { Parameter } from '../core/protocol'
 import { text } from '../text'
 
 const t = text.actions

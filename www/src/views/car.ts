@@ -1,9 +1,9 @@
 // The watched car: what it does, and what can be changed about its driver.
-import { el } from '../dom'
-import { exactly, fixed, unit } from '../format'
-import type { Session } from '../session'
+import { el } from '../ui/dom'
+import { exactly, fixed, unit } from '../text/format'
+import type { Session } from '../app/session'
 import { text } from '../text'
-import { numberField } from './number'
+import { numberField } from '../ui/number_field'
 
 const t = text.car
 /** Parameters that are offered for one driver. */

@@ -1,11 +1,11 @@
 // A slider and a number field for every parameter of the core's table. A driver's parameter changes the traffic
 // when the slider is let go; any other starts the run again. While a slider moves, the verdict says what would be.
-import { card, el } from '../dom'
-import { fixed } from '../format'
-import type { Session } from '../session'
-import type { Parameter, Verdict } from '../shared/protocol'
+import { card, el } from '../ui/dom'
+import { fixed } from '../text/format'
+import type { Session } from '../app/session'
+import type { Parameter, Verdict } from '../core/protocol'
 import { text } from '../text'
-import { numberField } from './number'
+import { numberField } from '../ui/number_field'
 import { BRAKE } from './ring'
 
 const t = text.controls

@@ -1,11 +1,11 @@
 // Share, data, help.
-import { Cancelled } from '../client/client'
-import { el } from '../dom'
-import { fixed } from '../format'
-import { save } from '../save'
-import type { Session } from '../session'
+import { Cancelled } from '../core/client'
+import { el } from '../ui/dom'
+import { fixed } from '../text/format'
+import { save } from '../ui/download'
+import type { Session } from '../app/session'
 import { text } from '../text'
-import { numberField } from './number'
+import { numberField } from '../ui/number_field'
 import { BRAKE } from './ring'
 
 function dialog(id: string, title: string, ...children: (Node | null)[]): HTMLDialogElement {

@@ -1,6 +1,6 @@
 // The head of the page: its name, the experiments, and the doors to sharing, data and help.
-import { el } from '../dom'
-import type { Session } from '../session'
+import { el } from '../ui/dom'
+import type { Session } from '../app/session'
 import { text } from '../text'
 
 const t = text.header

@@ -1,8 +1,8 @@
 // Several lanes: how unevenly they are filled, and the flow, over time.
-import { el } from '../dom'
-import type { Session } from '../session'
+import { el } from '../ui/dom'
+import type { Session } from '../app/session'
 import { text } from '../text'
-import { chart, most, palette } from './chart'
+import { chart, most, palette } from '../charts/line_chart'
 
 const t = text.lanes
 

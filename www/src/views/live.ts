@@ -1,6 +1,6 @@
 // The traffic in words, every few seconds, for people who listen to the page.
-import { el } from '../dom'
-import type { Session } from '../session'
+import { el } from '../ui/dom'
+import type { Session } from '../app/session'
 import { text } from '../text'
 
 const EVERY = 8000

@@ -1,11 +1,11 @@
 // The space-time map. The core paints it, a column per interval; here are its frame, its axes and the reading
 // under the pointer.
-import { card, el } from '../dom'
-import { fixed } from '../format'
-import type { Session } from '../session'
+import { card, el } from '../ui/dom'
+import { fixed } from '../text/format'
+import type { Session } from '../app/session'
 import { text } from '../text'
-import { roundSteps } from './axes'
-import { legendView } from './legend'
+import { roundSteps } from '../charts/axes'
+import { legendView } from '../charts/colour_bar'
 
 const t = text.map
 

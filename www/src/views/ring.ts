@@ -1,11 +1,11 @@
 // The ring seen from above, to scale along the road: every car a rectangle of its length with a whisker as long
 // as the minimum headway in front. Lanes are concentric, lane 1 outermost; their width is exaggerated.
-import { card, drawing, el, style } from '../dom'
-import { fixed } from '../format'
-import type { Session } from '../session'
-import type { Frame, Quantity } from '../shared/protocol'
+import { card, drawing, el, style } from '../ui/dom'
+import { fixed } from '../text/format'
+import type { Session } from '../app/session'
+import type { Frame, Quantity } from '../core/protocol'
 import { text } from '../text'
-import { legendView } from './legend'
+import { legendView } from '../charts/colour_bar'
 
 const t = text.ring
 const HOLD = 350

@@ -1,8 +1,8 @@
 // Speeds of five cars over time, beside the equilibrium speed.
-import { card, style } from '../dom'
-import type { Session } from '../session'
+import { card, style } from '../ui/dom'
+import type { Session } from '../app/session'
 import { text } from '../text'
-import { type Line, chart, keys, most, palette } from './chart'
+import { type Line, chart, keys, most, palette } from '../charts/line_chart'
 
 const t = text.speeds
 const DASHES = [undefined, [10, 3], [4, 3], [12, 3, 3, 3], [2, 2]]

@@ -1,7 +1,7 @@
 // Play, pause, step, restart; the playback speed; the time line with the actions on it.
-import { el } from '../dom'
-import { fixed } from '../format'
-import { PLAYBACKS, type Session } from '../session'
+import { el } from '../ui/dom'
+import { fixed } from '../text/format'
+import { PLAYBACKS, type Session } from '../app/session'
 import { text } from '../text'
 
 const t = text.transport

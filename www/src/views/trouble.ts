@@ -1,6 +1,6 @@
 // What went wrong, in sentences. What was good stays.
-import { el } from '../dom'
-import type { Session } from '../session'
+import { el } from '../ui/dom'
+import type { Session } from '../app/session'
 import { text } from '../text'
 
 export function troubleView(session: Session): HTMLElement {

@@ -1,8 +1,8 @@
 // The verdict: what theory says of this ring, and what the run has shown so far. During a slider's movement it
 // speaks of what would be.
-import { el } from '../dom'
-import type { Session } from '../session'
-import type { Verdict } from '../shared/protocol'
+import { el } from '../ui/dom'
+import type { Session } from '../app/session'
+import type { Verdict } from '../core/protocol'
 import { text } from '../text'
 
 const t = text.verdict

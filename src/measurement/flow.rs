@@ -1,0 +1,144 @@
+//! Flow past a place over a window δ, and its space-time map, all lanes together:
+//! `Q(t, x) = (1/δ)·Σ_j [⌊(X_j(t) − x)/L⌋ − ⌊(X_j(t − δ) − x)/L⌋]` with unwrapped positions X_j, so that every
+//! lap counts and a vehicle pushed back is counted back. It does not exist for t < δ.
+//!
+//! The two sums are numbers of passings since ever; one state gives them for all places in O(N + places), by
+//! counting the vehicles between neighbouring places and summing up along the ring. So the probe keeps, for each
+//! row to come, one whole number a place instead of the positions of all vehicles.
+
+use super::probe::{Due, Probe, Schedule};
+use super::speed_map::{centre, centres_below, map_table};
+use crate::format::table::{Column, Table};
+use crate::scenario::Scenario;
+use crate::simulation::Simulation;
+
+/// The probe of the tables `flow` and `flow-map`.
+#[derive(Clone, Debug)]
+pub struct Flow {
+    schedule: Schedule,
+    every: u64,
+    /// δ in steps and in s.
+    window: u64,
+    seconds: f64,
+    length: f64,
+    /// One place, or the centres of so many cells.
+    place: Option<f64>,
+    bins: usize,
+    /// Passings at the beginning of the windows of the rows to come; row m·every is in slot m modulo their number.
+    begun: Vec<i64>,
+    /// The step at which each slot was filled.
+    begun_at: Vec<Option<u64>>,
+    passings: Vec<i64>,
+    times: Vec<f64>,
+    flows: Vec<f64>,
+}
+
+impl Flow {
+    /// Flow past one place (m) every so many steps, over a window in steps.
+    pub fn at(scenario: &Scenario, every: u64, window: u64, place: f64) -> Self {
+        Self::new(scenario, every, window, Some(place), 1)
+    }
+
+    /// Flow past the centres of `bins` cells.
+    pub fn map(scenario: &Scenario, every: u64, window: u64, bins: usize) -> Self {
+        Self::new(scenario, every, window, None, bins)
+    }
+
+    fn new(scenario: &Scenario, every: u64, window: u64, place: Option<f64>, bins: usize) -> Self {
+        let slots = (window / every) as usize + 2;
+        Self {
+            schedule: Schedule::new(every),
+            every,
+            window,
+            seconds: window as f64 * scenario.time_step,
+            length: scenario.length,
+            place,
+            bins,
+            begun: vec![0; slots * bins],
+            begun_at: vec![None; slots],
+            passings: vec![0; bins],
+            times: Vec::new(),
+            flows: Vec::new(),
+        }
+    }
+
+    /// Passings of every place since ever, up to a constant that the state does not change:
+    /// Σ_j ⌊(X_j − x)/L⌋ = Σ_j ⌊X_j/L⌋ − (number of vehicles short of x on their lap).
+    fn count(&mut self, simulation: &Simulation) {
+        let mut laps = 0;
+        self.passings.fill(0);
+        for j in 0..simulation.vehicles() {
+            let unwrapped = simulation.unwrapped_position(j);
+            let mut lap = (unwrapped / self.length).floor();
+            let mut x = unwrapped - lap * self.length;
+            if x < 0.0 {
+                // The quotient was rounded up to a whole lap.
+                lap -= 1.0;
+                x = unwrapped - lap * self.length;
+            } else if x >= self.length {
+                lap += 1.0;
+                x = unwrapped - lap * self.length;
+            }
+            laps += lap as i64;
+            let beyond = match self.place {
+                Some(place) => usize::from(place <= x),
+                // A centre that the vehicle stands on is passed.
+                None => self.centres_reached(x),
+            };
+            if beyond < self.bins {
+                self.passings[beyond] += 1;
+            }
+        }
+        let mut short = 0;
+        for passings in &mut self.passings {
+            short += *passings;
+            *passings = laps - short;
+        }
+    }
+
+    fn centres_reached(&self, x: f64) -> usize {
+        let below = centres_below(x, self.bins, self.length);
+        below + usize::from(below < self.bins && centre(below, self.bins, self.length) == x)
+    }
+}
+
+impl Probe for Flow {
+    fn observe(&mut self, simulation: &Simulation) {
+        let step = simulation.step_index();
+        let due = self.schedule.due(simulation);
+        let begins = (step + self.window).is_multiple_of(self.every);
+        if due == Due::Nothing && !begins {
+            return;
+        }
+        self.count(simulation);
+        let bins = self.bins;
+        if begins {
+            let slot = ((step + self.window) / self.every) as usize % self.begun_at.len();
+            self.begun_at[slot] = Some(step);
+            self.begun[slot * bins..][..bins].copy_from_slice(&self.passings);
+        }
+        if due == Due::Nothing {
+            return;
+        }
+        if due == Due::Again {
+            self.times.pop();
+            self.flows.truncate(self.times.len() * bins);
+        }
+        self.times.push(simulation.time());
+        let slot = (step / self.every) as usize % self.begun_at.len();
+        let known = step >= self.window && self.begun_at[slot] == Some(step - self.window);
+        for k in 0..bins {
+            let passed = self.passings[k] - self.begun[slot * bins + k];
+            self.flows.push(if known { passed as f64 / self.seconds } else { f64::NAN });
+        }
+    }
+
+    fn table(&self) -> Table {
+        let meaning = format!("flow over the last {} s, all lanes together; none before", self.seconds);
+        let flow = Column::float("flow_veh_per_s", "veh/s", meaning, self.flows.clone());
+        match self.place {
+            Some(_) => Table::new(vec![Column::float("time_s", "s", "time", self.times.clone()), flow]),
+            None => map_table(&self.times, self.bins, self.length, flow),
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Probes: the only way to measure. Each looks at the simulation after a step, keeps what it needs, and gives a
+//! [`Table`] at any time.
+//!
+//! A probe's rows depend on the states that it saw and on nothing else; so a table taken in mid-run is the one
+//! that a run with `until` at that time gives. (An outcome alone waits for the end.)
+
+use crate::error::Invalid;
+use crate::format::table::Table;
+use crate::scenario::action::Action;
+use crate::simulation::Simulation;
+
+/// Something that measures.
+///
+/// [`Probe::observe`] is called on the initial state, then once after every call of `Simulation::step` (also the
+/// one that ends in a collision and does not advance the time), and again after an action made by hand. Seeing a
+/// time twice replaces what was seen of it before.
+pub trait Probe: Send {
+    /// Looks at the present state.
+    fn observe(&mut self, simulation: &Simulation);
+    /// What was measured so far.
+    fn table(&self) -> Table;
+}
+
+/// Runs the simulation to its end, from the present state on, with probes. Every so many steps `progress` gets
+/// the number of the step reached and says whether to go on. Returns whether the end was reached.
+pub fn measure(
+    simulation: &mut Simulation,
+    probes: &mut [Box<dyn Probe>],
+    progress: &mut dyn FnMut(u64) -> bool,
+) -> bool {
+    // About 10 ms of work between two calls.
+    let stride = (1_000_000 / simulation.vehicles() as u64).clamp(1, 10_000);
+    observe(simulation, probes);
+    while !simulation.is_finished() {
+        simulation.step();
+        observe(simulation, probes);
+        if simulation.step_index() % stride == 0 && !progress(simulation.step_index()) {
+            return false;
+        }
+    }
+    progress(simulation.step_index());
+    true
+}
+
+/// An action made by hand at the present time, seen by the probes as a replay will see it: a row at a time is the
+/// state after the actions of that time.
+pub fn act(
+    simulation: &mut Simulation,
+    probes: &mut [Box<dyn Probe>],
+    action: Action,
+) -> Result<(), Invalid> {
+    simulation.act(action)?;
+    observe(simulation, probes);
+    Ok(())
+}
+
+fn observe(simulation: &Simulation, probes: &mut [Box<dyn Probe>]) {
+    for probe in probes {
+        probe.observe(simulation);
+    }
+}
+
+/// Which states give a row: every so many steps, and for some tables the state of a collision.
+#[derive(Clone, Debug)]
+pub(super) struct Schedule {
+    every: u64,
+    at_collision: bool,
+    last: Option<u64>,
+}
+
+/// What a [`Schedule`] says of a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Due {
+    /// No row.
+    Nothing,
+    /// A row.
+    Row,
+    /// A row in place of the last one, which is of the same time.
+    Again,
+}
+
+impl Schedule {
+    pub(super) fn new(every: u64) -> Self {
+        Self { every, at_collision: false, last: None }
+    }
+
+    pub(super) fn with_collision(every: u64) -> Self {
+        Self { at_collision: true, ..Self::new(every) }
+    }
+
+    pub(super) fn due(&mut self, simulation: &Simulation) -> Due {
+        let step = simulation.step_index();
+        if step % self.every != 0 && !(self.at_collision && simulation.collision().is_some()) {
+            return Due::Nothing;
+        }
+        if self.last.replace(step) == Some(step) { Due::Again } else { Due::Row }
+    }
+}

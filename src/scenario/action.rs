@@ -1,0 +1,338 @@
+//! What happens on the way, and who is different: timed actions and exceptions among the drivers, in the one
+//! grammar that the command, the link, JSON and the page share.
+//!
+//! ```text
+//! exception   WHO:PARAMETER=VALUE[,PARAMETER=VALUE …]     12:sensitivity=2     10%:sensitivity=2
+//! action      at=SECONDS:WHO:EFFECT[,EFFECT …]            at=30:all:reaction-time=0.75
+//! EFFECT      PARAMETER=VALUE | brake=SECONDS | nudge=METRES
+//! WHO         all | NUMBER | FIRST-LAST | SHARE%          (a share of the vehicles, drawn by the seed)
+//! ```
+
+use crate::error::Invalid;
+use crate::scenario::parameters::{PARAMETERS, Parameter, quoted};
+use std::fmt;
+use std::str::FromStr;
+
+/// The vehicles that an action or an exception speaks of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Who {
+    /// Every vehicle.
+    All,
+    /// One vehicle, by its number from 1.
+    Vehicle(usize),
+    /// Vehicles from the first to the last number, both included.
+    Range(usize, usize),
+    /// So many per cent of the vehicles, rounded to whole ones and drawn by the seed.
+    Share(f64),
+}
+
+/// One thing that an action does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Effect {
+    /// Gives a driver's parameter a value.
+    Set(&'static Parameter, f64),
+    /// Speed 0 for so many seconds.
+    Brake(f64),
+    /// A displacement by so many metres, downstream where positive.
+    Nudge(f64),
+}
+
+/// Something that happens at a time; it rounds to a whole step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Action {
+    /// Time, s.
+    pub at: f64,
+    /// To whom.
+    pub who: Who,
+    /// What, in this order.
+    pub effects: Vec<Effect>,
+}
+
+/// Drivers who differ from the default one from the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exception {
+    /// Who.
+    pub who: Who,
+    /// Parameters that differ, with their values.
+    pub values: Vec<(&'static Parameter, f64)>,
+}
+
+impl Who {
+    /// Whether such vehicles exist among `vehicles`.
+    pub fn check(self, vehicles: usize) -> Result<(), Invalid> {
+        let fits = match self {
+            Self::All => true,
+            Self::Vehicle(n) => (1..=vehicles).contains(&n),
+            Self::Range(first, last) => 1 <= first && first <= last && last <= vehicles,
+            Self::Share(percent) => (0.0..=100.0).contains(&percent),
+        };
+        if fits {
+            Ok(())
+        } else {
+            let allowed =
+                format!("a vehicle from 1 to {vehicles}, a range such as 3-7, “all”, or 0% to 100%");
+            Err(Invalid::new("vehicle", self, allowed))
+        }
+    }
+}
+
+impl fmt::Display for Who {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::All => write!(f, "all"),
+            Self::Vehicle(n) => write!(f, "{n}"),
+            Self::Range(a, b) => write!(f, "{a}-{b}"),
+            Self::Share(percent) => write!(f, "{percent}%"),
+        }
+    }
+}
+
+impl FromStr for Who {
+    type Err = Invalid;
+    fn from_str(text: &str) -> Result<Self, Invalid> {
+        let text = text.trim();
+        let wrong = || {
+            Invalid::new(
+                "vehicle",
+                quoted(text),
+                "a number, a range such as 3-7, “all”, or a share such as 10%",
+            )
+        };
+        if text == "all" {
+            Ok(Self::All)
+        } else if let Some(share) = text.strip_suffix('%') {
+            share.trim().parse().map(Self::Share).map_err(|_| wrong())
+        } else if let Some((first, last)) = text.split_once('-') {
+            match (first.trim().parse(), last.trim().parse()) {
+                (Ok(first), Ok(last)) => Ok(Self::Range(first, last)),
+                _ => Err(wrong()),
+            }
+        } else {
+            text.parse().map(Self::Vehicle).map_err(|_| wrong())
+        }
+    }
+}
+
+impl Effect {
+    /// Whether the value is allowed on a ring of `length` metres.
+    pub fn check(self, length: f64) -> Result<(), Invalid> {
+        match self {
+            Self::Set(parameter, value) => parameter.check(value),
+            Self::Brake(seconds) if (0.0..=1e7).contains(&seconds) => Ok(()),
+            Self::Brake(seconds) => Err(Invalid::new("brake", seconds, "a number from 0 to 10000000 s")),
+            Self::Nudge(metres) if metres.abs() <= length => Ok(()),
+            Self::Nudge(metres) => {
+                Err(Invalid::new("nudge", metres, format!("a number from -{length} to {length} m, one lap")))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Effect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Set(parameter, value) => write!(f, "{}={value}", parameter.hyphenated()),
+            Self::Brake(seconds) => write!(f, "brake={seconds}"),
+            Self::Nudge(metres) => write!(f, "nudge={metres}"),
+        }
+    }
+}
+
+/// `NAME=VALUE` with a number; a refusal names `what` it is.
+fn assignment<'a>(what: &'static str, text: &'a str) -> Result<(&'a str, f64), Invalid> {
+    let (name, value) = text
+        .split_once('=')
+        .ok_or_else(|| Invalid::new(what, quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
+    let name = name.trim();
+    let number =
+        value.trim().parse().map_err(|_| Invalid::new(name.to_owned(), quoted(value), "a number"))?;
+    Ok((name, number))
+}
+
+/// What an [`Effect`] is called, and what an [`Exception`] sets.
+const EFFECT: &str = "effect";
+const OF_DRIVER: &str = "driver's parameter";
+
+fn driver_parameter(what: &'static str, name: &str, others: &str) -> Result<&'static Parameter, Invalid> {
+    Parameter::named(name).filter(|p| p.is_of_driver()).ok_or_else(|| {
+        let names: Vec<_> =
+            PARAMETERS.iter().filter(|p| p.is_of_driver()).map(Parameter::hyphenated).collect();
+        Invalid::new(what, quoted(name), format!("{}{others}", names.join(", ")))
+    })
+}
+
+impl FromStr for Effect {
+    type Err = Invalid;
+    fn from_str(text: &str) -> Result<Self, Invalid> {
+        match assignment(EFFECT, text)? {
+            ("brake", seconds) => Ok(Self::Brake(seconds)),
+            ("nudge", metres) => Ok(Self::Nudge(metres)),
+            (name, value) => driver_parameter(EFFECT, name, ", brake, nudge").map(|p| Self::Set(p, value)),
+        }
+    }
+}
+
+impl fmt::Display for Action {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at={}:{}:{}", self.at, self.who, joined(&self.effects))
+    }
+}
+
+impl Action {
+    /// `WHO:EFFECT[,EFFECT …]`, at a time in s.
+    pub fn at(at: f64, text: &str) -> Result<Self, Invalid> {
+        let form = || Invalid::new("action", quoted(text), "WHO:EFFECT, such as 7:brake=3");
+        let (who, effects) = text.split_once(':').filter(|(who, _)| !who.contains('=')).ok_or_else(form)?;
+        Self::of(at, who, effects).map_err(|e| e.within(quoted(text)))
+    }
+
+    /// Whether this, done after `earlier` in the same step, leaves nothing of it: the same vehicles, their parameters
+    /// set again, braked for as long or longer. Nudges add up, and a share is drawn anew by every action.
+    pub(crate) fn replaces(&self, earlier: &Self) -> bool {
+        let again = |old: &Effect| {
+            self.effects.iter().any(|new| match (old, new) {
+                (Effect::Set(a, _), Effect::Set(b, _)) => a.name == b.name,
+                (Effect::Brake(before), Effect::Brake(now)) => before <= now,
+                _ => false,
+            })
+        };
+        !matches!(self.who, Who::Share(_)) && self.who == earlier.who && earlier.effects.iter().all(again)
+    }
+
+    fn of(at: f64, who: &str, effects: &str) -> Result<Self, Invalid> {
+        let effects = effects.split(',').map(str::parse).collect::<Result<_, _>>()?;
+        Ok(Self { at, who: who.parse()?, effects })
+    }
+}
+
+impl FromStr for Action {
+    type Err = Invalid;
+    fn from_str(text: &str) -> Result<Self, Invalid> {
+        let form = || {
+            Invalid::new(
+                "action",
+                quoted(text),
+                "at=SECONDS:WHO:EFFECT, such as at=30:all:reaction-time=0.75",
+            )
+        };
+        let mut parts = text.trim().splitn(3, ':');
+        let (Some(at), Some(who), Some(effects)) = (parts.next(), parts.next(), parts.next()) else {
+            return Err(form());
+        };
+        let (name, at) = assignment(EFFECT, at).map_err(|_| form())?;
+        if name != "at" {
+            return Err(form());
+        }
+        Self::of(at, who, effects).map_err(|e| e.within(quoted(text)))
+    }
+}
+
+impl fmt::Display for Exception {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let values: Vec<_> = self.values.iter().map(|&(p, v)| Effect::Set(p, v)).collect();
+        write!(f, "{}:{}", self.who, joined(&values))
+    }
+}
+
+impl FromStr for Exception {
+    type Err = Invalid;
+    fn from_str(text: &str) -> Result<Self, Invalid> {
+        let (who, values) = text.split_once(':').ok_or_else(|| {
+            Invalid::new("driver", quoted(text), "WHO:PARAMETER=VALUE, such as 12:sensitivity=2")
+        })?;
+        Ok(Self {
+            who: who.parse().map_err(|e: Invalid| e.within(quoted(text)))?,
+            values: driver_values(values).map_err(|e| e.within(quoted(text)))?,
+        })
+    }
+}
+
+/// `PARAMETER=VALUE[,PARAMETER=VALUE …]` of a driver.
+pub(crate) fn driver_values(text: &str) -> Result<Vec<(&'static Parameter, f64)>, Invalid> {
+    let one = |text: &str| {
+        let (name, value) = assignment(OF_DRIVER, text)?;
+        Ok((driver_parameter(OF_DRIVER, name, "")?, value))
+    };
+    text.split(',').map(one).collect()
+}
+
+fn joined(effects: &[Effect]) -> String {
+    effects.iter().map(Effect::to_string).collect::<Vec<_>>().join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_reads_back() {
+        for text in [
+            "at=30:all:reaction-time=0.75",
+            "at=40:7:brake=3",
+            "at=0:1:nudge=1",
+            "at=1.5:3-7:nudge=-0.1,brake=2",
+        ] {
+            assert_eq!(text.parse::<Action>().unwrap().to_string(), text);
+        }
+        for text in ["12:sensitivity=2", "10%:sensitivity=2,reaction-time=0.5", "all:max-speed=30"] {
+            assert_eq!(text.parse::<Exception>().unwrap().to_string(), text);
+        }
+        assert_eq!("at=1:2:reaction_time=1".parse::<Action>().unwrap().to_string(), "at=1:2:reaction-time=1");
+    }
+
+    #[test]
+    fn an_action_without_its_time_is_refused_in_its_own_words() {
+        assert_eq!(Action::at(1.5, "7:brake=3,nudge=1").unwrap().to_string(), "at=1.5:7:brake=3,nudge=1");
+        for text in ["brake=3", "7", "at=3:7:brake=3", ""] {
+            let message = Action::at(0.0, text).unwrap_err().to_string();
+            assert!(message.contains("WHO:EFFECT") && !message.contains("SECONDS"), "{message}");
+        }
+        let message = Action::at(0.0, "7:sleep=3").unwrap_err().to_string();
+        assert!(message.contains("“7:sleep=3”") && message.contains("“sleep”"), "{message}");
+    }
+
+    #[test]
+    fn what_leaves_nothing_of_an_earlier_action_replaces_it() {
+        for (earlier, now, replaced) in [
+            ("all:sensitivity=1", "all:sensitivity=2", true),
+            ("all:sensitivity=1", "all:reaction-time=1,sensitivity=2", true),
+            ("all:reaction-time=1,sensitivity=1", "all:sensitivity=2", false),
+            ("7:sensitivity=1", "8:sensitivity=2", false),
+            ("7:sensitivity=1", "7:reaction-time=1", false),
+            ("7:brake=3", "7:brake=3", true),
+            ("7:brake=3", "7:brake=2", false),
+            ("7:nudge=1", "7:nudge=1", false),
+            ("10%:sensitivity=1", "10%:sensitivity=1", false),
+        ] {
+            let [earlier, now] = [earlier, now].map(|text| Action::at(0.0, text).unwrap());
+            assert_eq!(now.replaces(&earlier), replaced, "{earlier}, then {now}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        for (text, named) in [
+            ("30:all:reaction-time=1", "at=SECONDS"),
+            ("at=30:all", "at=SECONDS"),
+            ("at=30:some:brake=1", "“some”"),
+            ("at=30:1:sleep=1", "“sleep”"),
+            ("at=30:1:vehicles=1", "“vehicles”"),
+            ("at=30:1:brake=soon", "“soon”"),
+        ] {
+            let message = text.parse::<Action>().unwrap_err().to_string();
+            assert!(message.contains(named), "{message}");
+        }
+        for (text, named) in [
+            ("sensitivity=2", "WHO:PARAMETER=VALUE"),
+            ("x:sensitivity=1", "“x”"),
+            ("12:brake=2", "driver's parameter: “brake”"),
+            ("12:sensitivity", "driver's parameter: “sensitivity”"),
+        ] {
+            let message = text.parse::<Exception>().unwrap_err().to_string();
+            assert!(message.contains(named) && !message.contains("effect"), "{message}");
+        }
+        assert!(Who::Vehicle(51).check(50).unwrap_err().to_string().contains("51"));
+        assert!(Who::Vehicle(0).check(50).is_err() && Who::Range(7, 3).check(50).is_err());
+        assert!(Who::Share(f64::NAN).check(50).is_err() && Who::Share(101.0).check(50).is_err());
+    }
+}

@@ -1,0 +1,192 @@
+//! A driver: the law of speed against headway, its inverse and slope, and what follows from it in
+//! equilibrium: the common speed and the fundamental diagram.
+//!
+//! The law is Newell's (Operations Research 9, 1961):
+//! `v(h) = max(V − V·exp(−(λ/V)(h − d)), 0)`.
+
+use crate::numerics::exp::exp;
+use crate::scenario::parameters::{PARAMETERS, Scope};
+
+/// One driver with the vehicle that he or she drives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Driver {
+    /// V, m/s.
+    pub max_speed: f64,
+    /// λ, 1/s.
+    pub sensitivity: f64,
+    /// d, m.
+    pub min_headway: f64,
+    /// C, m.
+    pub vehicle_length: f64,
+    /// Δ, s.
+    pub reaction_time: f64,
+    /// r, 1/s.
+    pub frustration_rate: f64,
+    /// p.
+    pub pass_frustration: f64,
+}
+
+impl Default for Driver {
+    fn default() -> Self {
+        let mut driver = Self {
+            max_speed: f64::NAN,
+            sensitivity: f64::NAN,
+            min_headway: f64::NAN,
+            vehicle_length: f64::NAN,
+            reaction_time: f64::NAN,
+            frustration_rate: f64::NAN,
+            pass_frustration: f64::NAN,
+        };
+        for parameter in &PARAMETERS {
+            if let Scope::Driver { set, .. } = parameter.scope {
+                set(&mut driver, parameter.default);
+            }
+        }
+        driver
+    }
+}
+
+impl Driver {
+    /// Speed (m/s) at headway `h` (m).
+    pub fn speed(&self, h: f64) -> f64 {
+        let gap_factor = exp(-(self.sensitivity / self.max_speed) * (h - self.min_headway));
+        (self.max_speed - self.max_speed * gap_factor).max(0.0)
+    }
+
+    /// Headway (m) at which the speed is `v` (m/s), `0 ≤ v < V`; the smallest moving headway, d, at `v = 0`.
+    pub fn headway(&self, v: f64) -> f64 {
+        self.min_headway - self.max_speed / self.sensitivity * libm::log1p(-v / self.max_speed)
+    }
+
+    /// Slope dv/dh (1/s) at headway `h` (m): `λ·exp(−(λ/V)(h − d))` where the vehicle moves, 0 in the jam
+    /// (h ≤ d).
+    pub fn slope(&self, h: f64) -> f64 {
+        if h <= self.min_headway {
+            0.0
+        } else {
+            self.sensitivity * exp(-(self.sensitivity / self.max_speed) * (h - self.min_headway))
+        }
+    }
+
+    /// Flow (veh/s) of a lane of such drivers at density `rho` (veh/m): `ρ·v(1/ρ)`.
+    pub fn flow(&self, rho: f64) -> f64 {
+        if rho == 0.0 { 0.0 } else { rho * self.speed(1.0 / rho) }
+    }
+
+    /// The largest flow and the density where it occurs.
+    ///
+    /// With u = (λ/V)(h − d), dq/dρ = 0 reads `e^u = 1 + u + λd/V`; the root is found by Newton's method
+    /// from above, where the function is convex.
+    pub fn capacity(&self) -> Capacity {
+        let k = self.sensitivity * self.min_headway / self.max_speed;
+        let mut u = 1.0 + libm::log1p(k) + libm::sqrt(2.0 * k);
+        for _ in 0..200 {
+            let e = exp(u);
+            let next = u - (e - 1.0 - u - k) / (e - 1.0);
+            if next >= u || next <= 0.0 {
+                break;
+            }
+            u = next;
+        }
+        let h = self.min_headway + u * self.max_speed / self.sensitivity;
+        Capacity { density: 1.0 / h, flow: self.flow(1.0 / h) }
+    }
+}
+
+/// The top of the fundamental diagram.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Capacity {
+    /// ρ*, veh/m.
+    pub density: f64,
+    /// q*, veh/s.
+    pub flow: f64,
+}
+
+/// The state of a lane in which every driver keeps the same speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// v∞, m/s.
+    pub speed: f64,
+    /// ρ, veh/m.
+    pub density: f64,
+    /// q = ρ·v∞, veh/s.
+    pub flow: f64,
+}
+
+/// The equilibrium of `drivers` in one lane of `length` metres: the common speed v∞ with
+/// Σ_j h_j(v∞) = L, found by bisection to the last bit. Where the vehicles fill the lane
+/// (Σ d_j ≥ L) it is 0. An empty lane has none.
+pub fn equilibrium(drivers: &[Driver], length: f64) -> Option<Equilibrium> {
+    let first = drivers.first()?;
+    let density = drivers.len() as f64 / length;
+    let alike = |d: &Driver| {
+        (d.max_speed, d.sensitivity, d.min_headway) == (first.max_speed, first.sensitivity, first.min_headway)
+    };
+    let speed = if drivers.iter().all(alike) {
+        first.speed(length / drivers.len() as f64)
+    } else {
+        let needed = |v: f64| drivers.iter().map(|d| d.headway(v)).sum::<f64>();
+        let (mut low, mut high) = (0.0, drivers.iter().map(|d| d.max_speed).fold(f64::INFINITY, f64::min));
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if needed(middle) < length {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    };
+    Some(Equilibrium { speed, density, flow: density * speed })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_law_its_inverse_and_its_slope_belong_together() {
+        let driver = Driver { sensitivity: 1.3, max_speed: 33.0, ..Driver::default() };
+        for i in 1..400 {
+            let h = 7.5 + f64::from(i) * 0.5;
+            let v = driver.speed(h);
+            assert!((driver.headway(v) - h).abs() < 1e-9 * h * exp(1.3 / 33.0 * h), "h = {h}");
+            let numeric = (driver.speed(h + 1e-4) - driver.speed(h - 1e-4)) / 2e-4;
+            assert!((driver.slope(h) - numeric).abs() < 1e-7, "h = {h}");
+        }
+        for h in [-50.0, 0.0, 5.0, 7.5] {
+            assert_eq!((driver.speed(h), driver.slope(h)), (0.0, 0.0));
+        }
+        assert_eq!(driver.headway(0.0), driver.min_headway);
+    }
+
+    /// Values of the model's specification.
+    #[test]
+    fn the_fundamental_diagram_has_the_known_top() {
+        let top = Driver::default().capacity();
+        assert!((top.flow * 3600.0 - 2065.0).abs() < 1.0, "{top:?}");
+        assert!((top.density * 1000.0 - 34.0).abs() < 0.5, "{top:?}");
+        let driver = Driver::default();
+        for nearby in [0.99, 1.01] {
+            assert!(driver.flow(top.density * nearby) < top.flow);
+        }
+    }
+
+    #[test]
+    fn equal_and_different_drivers_share_one_speed_in_equilibrium() {
+        let equal = equilibrium(&[Driver::default(); 50], 1000.0).unwrap();
+        assert!((equal.flow - 0.5368).abs() < 5e-5, "{equal:?}");
+        let mut drivers = vec![Driver::default(); 50];
+        drivers[3].sensitivity = 2.0;
+        drivers[9].max_speed = 25.0;
+        let mixed = equilibrium(&drivers, 1000.0).unwrap();
+        let total: f64 = drivers.iter().map(|d| d.headway(mixed.speed)).sum();
+        assert!((total - 1000.0).abs() < 1e-9);
+        let jammed = equilibrium(&[Driver::default(); 140], 1000.0).unwrap();
+        assert_eq!(jammed.speed, 0.0);
+        assert!(equilibrium(&[], 1000.0).is_none());
+    }
+}

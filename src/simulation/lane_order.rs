@@ -1,0 +1,639 @@
+//! Who is ahead: the order of the vehicles in each lane, and for every vehicle the next one ahead in each
+//! adjacent lane, kept as vehicles pass and change lanes, never sorted.
+//!
+//! # Terms
+//!
+//! *Unwrapped position*: position at the start plus displacement, x = x⁰ + s. *Offset* of i seen from j: the number
+//! o = (x⁰_i − x⁰_j) − n·L with a whole number of laps n, such that the distance o + (s_i − s_j) lies in (0, L]:
+//! one exactly alongside is a lap ahead. The whole number that does it is n = ⌈g/L⌉ − 1 with g = x_i − x_j; it is
+//! found by comparing rounded sums, the same everywhere, so that "has passed" is exact and
+//! never counted twice.
+//!
+//! *Behind* and *ahead* in a lane are links of a circular list. *Beside*: the vehicle next ahead in an
+//! adjacent lane; the one behind that is at most alongside. Cost: O(1) a vehicle and step, plus passes and changes.
+
+use crate::numerics::random::{Generator, Stream};
+use crate::numerics::simd::{Aligned, CHUNK, Width};
+use crate::scenario::{Scenario, Start};
+use crate::simulation::history::{images, padded};
+use crate::simulation::pass_detection::{NEAR, Odometer, Watch};
+
+/// An adjacent lane: towards lane 1, or away from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The lane with the next smaller number.
+    Outer,
+    /// The lane with the next larger number.
+    Inner,
+}
+
+impl Side {
+    /// Both.
+    pub const BOTH: [Self; 2] = [Self::Outer, Self::Inner];
+
+    /// The other one.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Outer => Self::Inner,
+            Self::Inner => Self::Outer,
+        }
+    }
+}
+
+/// The next vehicle ahead in an adjacent lane, and its offset.
+///
+/// Where there is none it is the vehicle itself with an infinite offset: +∞ for an empty lane, −∞ for no lane. So
+/// `offset + (s_i − s_j)` needs no case.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Beside {
+    vehicle: u32,
+    offset: f64,
+}
+
+impl Beside {
+    /// The vehicle, if there is one.
+    #[inline]
+    pub(crate) fn vehicle(self) -> Option<usize> {
+        self.offset.is_finite().then_some(self.vehicle as usize)
+    }
+
+    /// Distance from j to it, given everyone's displacements at some time; infinite where there is none.
+    #[inline(always)]
+    pub(crate) fn distance(self, j: usize, s: &[f64]) -> f64 {
+        self.offset + (s[self.vehicle as usize] - s[j])
+    }
+
+    fn empty_lane(j: usize) -> Self {
+        Self { vehicle: j as u32, offset: f64::INFINITY }
+    }
+
+    fn no_lane(j: usize) -> Self {
+        Self { vehicle: j as u32, offset: f64::NEG_INFINITY }
+    }
+}
+
+/// [`Beside`] of all vehicles on one side, padded with vehicles that have no lane there.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct AllBeside {
+    /// The vehicles.
+    pub(crate) vehicles: Vec<u32>,
+    /// Their offsets, m.
+    pub(crate) offsets: Aligned,
+}
+
+impl AllBeside {
+    fn of(vehicles: usize) -> Self {
+        let none = (0..padded(vehicles)).map(Beside::no_lane);
+        Self {
+            vehicles: none.clone().map(|b| b.vehicle).collect(),
+            offsets: Aligned::of(&none.map(|b| b.offset).collect::<Vec<_>>()),
+        }
+    }
+}
+
+/// Vehicle `passer` has gone past `passed`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Pass {
+    pub(crate) passer: u32,
+    pub(crate) passed: u32,
+}
+
+/// The order of the vehicles.
+#[derive(Clone, Debug)]
+pub struct Ring {
+    length: f64,
+    /// x⁰: positions at t = 0, unwrapped, m.
+    start: Vec<f64>,
+    lane: Vec<u8>,
+    ahead: Vec<u32>,
+    behind: Vec<u32>,
+    /// Offset of the leader: its headway at the start, for vehicles that still follow the same one.
+    offset: Vec<f64>,
+    /// On either side; nothing on one lane.
+    beside: [AllBeside; 2],
+    watch: Watch,
+    /// Vehicles per lane.
+    count: Vec<usize>,
+    /// Some vehicle of each lane that has one.
+    member: Vec<Option<usize>>,
+    /// On one lane the leader of j is j + 1 for ever, but for the last.
+    in_order: bool,
+}
+
+impl Ring {
+    /// The start of a valid scenario, before any nudge. Beside is not known yet: see `find_beside`.
+    pub fn new(scenario: &Scenario) -> Self {
+        let n = scenario.vehicles;
+        let length = scenario.length;
+        let count = scenario.vehicles_per_lane();
+        let mut ring = Self {
+            length,
+            start: Vec::with_capacity(n),
+            lane: Vec::with_capacity(n),
+            ahead: Vec::with_capacity(n),
+            behind: Vec::with_capacity(n),
+            offset: Vec::with_capacity(n),
+            beside: [AllBeside::default(), AllBeside::default()],
+            watch: Watch::new(if scenario.lanes > 1 { n } else { 0 }),
+            member: vec![None; scenario.lanes],
+            count,
+            in_order: scenario.lanes == 1,
+        };
+        let drivers = if scenario.start == Start::Random { scenario.drivers() } else { Vec::new() };
+        let mut generator = Generator::new(scenario.seed, Stream::Start);
+        for lane in 0..scenario.lanes {
+            let vehicles = ring.count[lane];
+            if vehicles == 0 {
+                continue;
+            }
+            let first = ring.start.len();
+            ring.member[lane] = Some(first);
+            for k in 0..vehicles {
+                ring.lane.push(lane as u8);
+                ring.ahead.push((first + if k + 1 == vehicles { 0 } else { k + 1 }) as u32);
+                ring.behind.push((first + if k == 0 { vehicles - 1 } else { k - 1 }) as u32);
+            }
+            if scenario.start == Start::Random {
+                let min_headways = drivers[first..first + vehicles].iter().map(|d| d.min_headway);
+                ring.place_at_random(min_headways, &mut generator);
+            } else {
+                let headway = length / vehicles as f64;
+                let shift = if scenario.start == Start::Staggered {
+                    (scenario.lanes - 1 - lane) as f64 * (length / n as f64)
+                } else {
+                    0.0
+                };
+                ring.start.extend((0..vehicles).map(|k| k as f64 * headway + shift));
+                ring.offset.extend((0..vehicles).map(|_| headway));
+            }
+        }
+        if scenario.lanes > 1 {
+            ring.beside = [AllBeside::of(n), AllBeside::of(n)];
+        }
+        for image in n..padded(n) {
+            ring.offset.push(ring.offset[image - n]);
+            ring.ahead.push(ring.ahead[image - n]);
+        }
+        ring
+    }
+
+    /// Adds a lane in which every headway is the driver's minimum and a share of the free length, uniformly
+    /// distributed over all ways to share it; the whole lane is turned by a uniform angle.
+    fn place_at_random(
+        &mut self,
+        min_headways: impl ExactSizeIterator<Item = f64> + Clone,
+        generator: &mut Generator,
+    ) {
+        let free = self.length - min_headways.clone().sum::<f64>();
+        let mut cuts: Vec<f64> = (1..min_headways.len()).map(|_| generator.uniform() * free).collect();
+        cuts.sort_unstable_by(f64::total_cmp);
+        cuts.push(free);
+        let mut position = generator.uniform() * self.length;
+        let mut last = 0.0;
+        for (min_headway, cut) in min_headways.zip(cuts) {
+            let headway = min_headway + (cut - last);
+            self.start.push(position);
+            self.offset.push(headway);
+            position += headway;
+            last = cut;
+        }
+    }
+
+    /// Vehicles per lane, outermost first.
+    pub fn vehicles_per_lane(&self) -> &[usize] {
+        &self.count
+    }
+    /// The lane of a vehicle, from 0.
+    #[inline]
+    pub fn lane(&self, j: usize) -> usize {
+        usize::from(self.lane[j])
+    }
+    /// The next vehicle ahead in its lane; itself when alone.
+    #[inline]
+    pub fn ahead(&self, j: usize) -> usize {
+        self.ahead[j] as usize
+    }
+    /// The next vehicle behind in its lane; itself when alone.
+    #[inline]
+    pub fn behind(&self, j: usize) -> usize {
+        self.behind[j] as usize
+    }
+    /// Offsets of the leaders, m (padded).
+    #[inline]
+    pub(crate) fn offsets(&self) -> &[f64] {
+        &self.offset
+    }
+    /// The leaders (padded).
+    #[inline]
+    pub(crate) fn leaders(&self) -> &[u32] {
+        &self.ahead
+    }
+    /// Whether the leader of j is j + 1, of the last vehicle the first: on one lane.
+    pub(crate) fn is_in_order(&self) -> bool {
+        self.in_order
+    }
+    /// Position at the start, m.
+    #[inline]
+    pub fn start(&self, j: usize) -> f64 {
+        self.start[j]
+    }
+    /// L, m.
+    #[inline]
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+    /// The next vehicle ahead in the adjacent lane on that side.
+    #[inline]
+    pub(crate) fn beside(&self, j: usize, side: Side) -> Beside {
+        let all = &self.beside[side as usize];
+        Beside { vehicle: all.vehicles[j], offset: all.offsets[j] }
+    }
+
+    #[inline]
+    fn set_beside(&mut self, j: usize, side: Side, found: Beside) {
+        let all = &mut self.beside[side as usize];
+        (all.vehicles[j], all.offsets[j]) = (found.vehicle, found.offset);
+    }
+
+    /// The next vehicles ahead in the adjacent lanes, towards lane 1 and away from it, of all vehicles.
+    #[inline]
+    pub(crate) fn all_beside(&self) -> [&AllBeside; 2] {
+        self.beside.each_ref()
+    }
+
+    /// Uses vectors of another width; results stay the same.
+    pub(crate) fn set_width(&mut self, width: Width) {
+        self.watch.set_width(width);
+    }
+
+    /// The lane on that side of vehicle `j`, if there is one.
+    #[inline]
+    pub fn lane_beside(&self, j: usize, side: Side) -> Option<usize> {
+        let lane = self.lane(j);
+        match side {
+            Side::Outer => lane.checked_sub(1),
+            Side::Inner => (lane + 1 < self.count.len()).then_some(lane + 1),
+        }
+    }
+
+    /// Moves the position at the start: a nudge at t = 0.
+    pub(crate) fn nudge_start(&mut self, j: usize, metres: f64) {
+        self.start[j] += metres;
+        let follower = self.behind(j);
+        if follower != j {
+            self.set_offset(j, self.offset[j] - metres);
+            self.set_offset(follower, self.offset[follower] + metres);
+        }
+    }
+
+    /// ⌈(x_i − x_j)/L⌉, exact: the least n with (x⁰_i − x⁰_j) − n·L + (s_i − s_j) ≤ 0 as rounded sums.
+    pub(crate) fn laps(&self, i: usize, j: usize, s: &[f64]) -> f64 {
+        let base = self.start[i] - self.start[j];
+        let driven = s[i] - s[j];
+        let mut n = ((base + driven) / self.length).ceil();
+        while (base - n * self.length) + driven > 0.0 {
+            n += 1.0;
+        }
+        while (base - (n - 1.0) * self.length) + driven <= 0.0 {
+            n -= 1.0;
+        }
+        n
+    }
+
+    /// Offset of i seen from j; the distance `offset + (s_i − s_j)` is in (0, L].
+    fn offset_of(&self, i: usize, j: usize, s: &[f64]) -> f64 {
+        (self.start[i] - self.start[j]) - (self.laps(i, j, s) - 1.0) * self.length
+    }
+
+    /// Distance from j back to i, in [0, L).
+    pub(crate) fn distance_behind(&self, i: usize, j: usize, s: &[f64]) -> f64 {
+        -(((self.start[i] - self.start[j]) - self.laps(i, j, s) * self.length) + (s[i] - s[j]))
+    }
+
+    /// Whether i is ahead of j, given its distance up to rounding, `about`, in (−L, L); its offset if so.
+    fn offset_if_ahead(&self, i: usize, j: usize, s: &[f64], about: f64) -> Option<f64> {
+        let offset = self.offset_of(i, j, s);
+        let distance = offset + (s[i] - s[j]);
+        ((distance - about).abs() < 0.5 * self.length).then_some(offset)
+    }
+
+    /// True headway of j, m.
+    #[inline]
+    pub(crate) fn headway(&self, j: usize, s: &[f64]) -> f64 {
+        self.offset[j] + (s[self.ahead(j)] - s[j])
+    }
+
+    /// Finds every vehicle's beside anew, lane by lane; O(N) after a search for one vehicle a lane.
+    pub(crate) fn find_beside(&mut self, s: &[f64]) {
+        for lane in 0..self.count.len() {
+            let Some(first) = self.member[lane] else { continue };
+            for side in Side::BOTH {
+                let Some(target) = self.lane_beside(first, side) else { continue };
+                let mut j = first;
+                let mut found = self.search(first, target, s);
+                loop {
+                    self.set_beside(j, side, found);
+                    let next = self.ahead(j);
+                    if next == first {
+                        break;
+                    }
+                    // The one ahead of `next` is the one ahead of j, or ahead of that.
+                    found = match found.vehicle() {
+                        Some(i) => self.walk_ahead(next, i, found.distance(j, s) - self.headway(j, s), s),
+                        None => Beside::empty_lane(next),
+                    };
+                    j = next;
+                }
+            }
+        }
+        self.watch_all();
+    }
+
+    /// Has every vehicle looked at closely in the next [`Self::follow_motion`]: after a jump in positions, or where
+    /// someone may be faster from now on.
+    pub(crate) fn watch_all(&mut self) {
+        self.watch.look_at_all();
+    }
+
+    /// The next vehicle ahead of j in a lane, by looking at all of them.
+    fn search(&self, j: usize, lane: usize, s: &[f64]) -> Beside {
+        let mut best = Beside::empty_lane(j);
+        let Some(first) = self.member[lane] else { return best };
+        let mut i = first;
+        loop {
+            let seen = Beside { vehicle: i as u32, offset: self.offset_of(i, j, s) };
+            if seen.distance(j, s) < best.distance(j, s) {
+                best = seen;
+            }
+            i = self.ahead(i);
+            if i == first {
+                return best;
+            }
+        }
+    }
+
+    /// The next vehicle ahead of j, at i or ahead of i, where i is about `about` metres ahead (negative: behind).
+    fn walk_ahead(&self, j: usize, mut i: usize, mut about: f64, s: &[f64]) -> Beside {
+        let lane = self.lane(i);
+        for _ in 0..=2 * self.count[lane] {
+            if let Some(offset) = self.offset_if_ahead(i, j, s, about) {
+                return Beside { vehicle: i as u32, offset };
+            }
+            about += self.headway(i, s);
+            i = self.ahead(i);
+        }
+        // Twice round: nudges have put the lane out of order, or someone several laps ahead.
+        self.search(j, lane, s)
+    }
+
+    /// Brings beside up to date after the vehicles have moved to the displacements `s`, and tells who was passed by
+    /// whom, in order of the passed.
+    pub(crate) fn follow_motion(&mut self, odometer: Odometer, s: &[f64], passes: &mut Vec<Pass>) {
+        let due = self.watch.take_due(s, odometer);
+        for (k, &marks) in due.iter().enumerate() {
+            let mut marks = marks;
+            while marks != 0 {
+                let j = k * CHUNK + marks.trailing_zeros() as usize;
+                marks &= marks - 1;
+                let mut nearest = [f64::INFINITY; 2];
+                for side in Side::BOTH {
+                    let pass = |i: usize| passes.push(Pass { passer: i as u32, passed: j as u32 });
+                    let Some((found, [ahead, behind])) = self.look_beside(j, side, s, pass) else { continue };
+                    self.set_beside(j, side, found);
+                    nearest = [nearest[0].min(ahead), nearest[1].min(behind)];
+                }
+                self.watch.looked_at(j, s[j], odometer, nearest);
+            }
+        }
+        self.watch.give_back(due);
+    }
+
+    /// The next vehicle ahead in the adjacent lane at the displacements `s`, and how far the nearest vehicles there are,
+    /// ahead and behind, m. Starts from what was known last, and tells who has come past j since then.
+    fn look_beside(
+        &self,
+        j: usize,
+        side: Side,
+        s: &[f64],
+        mut pass: impl FnMut(usize),
+    ) -> Option<(Beside, [f64; 2])> {
+        let mut found = self.beside(j, side);
+        let mut i = found.vehicle()?;
+        let mut distance = found.distance(j, s);
+        if distance <= 0.0 {
+            // j has passed i, and perhaps more.
+            found = self.walk_ahead(j, self.ahead(i), distance + self.headway(i, s), s);
+            i = found.vehicle as usize;
+            distance = found.distance(j, s);
+        }
+        let mut walked = 0;
+        loop {
+            let follower = self.behind(i);
+            let about = distance - self.headway(follower, s);
+            if about <= -NEAR {
+                return Some((found, [distance, -about]));
+            }
+            // The one behind i was at most alongside; now it is looked at exactly.
+            let seen = Beside { vehicle: follower as u32, offset: self.offset_of(follower, j, s) };
+            let more_laps = ((about - seen.distance(j, s)) / self.length).round();
+            if more_laps < 0.0 {
+                return Some((found, [0.0; 2]));
+            }
+            // Once round, everyone there has come past.
+            if walked < self.count[self.lane(follower)] {
+                pass(follower);
+            }
+            walked += 1;
+            (found, i) = (seen, follower);
+            distance = seen.distance(j, s) + more_laps * self.length;
+        }
+    }
+
+    /// The next vehicle ahead in the adjacent lane on that side, wherever the vehicles have moved since the last
+    /// [`Self::follow_motion`]; none in an empty lane or where there is no lane.
+    pub(crate) fn adjacent(&self, j: usize, side: Side, s: &[f64]) -> Option<usize> {
+        if self.in_order {
+            return None;
+        }
+        self.look_beside(j, side, s, |_| {}).map(|(found, _)| found.vehicle as usize)
+    }
+
+    /// Moves `m` to the lane on that side; the vehicles of the lanes around learn of it. `crossed` gets the vehicles
+    /// of the far lane, new beside m, that m went past on the way from the displacements `before` to `s`.
+    pub(crate) fn change_lane(
+        &mut self,
+        m: usize,
+        side: Side,
+        before: &[f64],
+        s: &[f64],
+        crossed: &mut Vec<Pass>,
+    ) {
+        let to = self.lane_beside(m, side).expect("an attempt aims at a lane that exists");
+        let front = self.beside(m, side).vehicle();
+        self.announce_leaving(m, s);
+        let leader = self.leave(m, s);
+        self.enter(m, to, front, s);
+        let left = match leader {
+            Some(i) => Beside { vehicle: i as u32, offset: self.offset_of(i, m, s) },
+            None => Beside::empty_lane(m),
+        };
+        self.set_beside(m, side.opposite(), left);
+        self.set_beside(m, side, self.find_in_far_lane(m, side, s));
+        self.watch.look_at(m);
+        for listeners in Side::BOTH {
+            self.announce_arrival(m, listeners, s);
+        }
+        self.find_crossed(m, side, before, s, crossed);
+    }
+
+    /// Who has m beside gets the vehicle ahead of m: those just behind m in the adjacent lanes.
+    fn announce_leaving(&mut self, m: usize, s: &[f64]) {
+        let leader = self.ahead(m);
+        for side in Side::BOTH {
+            let toward = side.opposite();
+            let mut walk = self.back_from_beside(m, side);
+            while let Some(j) = walk.step(&self.behind) {
+                if self.beside(j, toward).vehicle() != Some(m) {
+                    if walk.may_be_alongside() {
+                        continue;
+                    }
+                    break;
+                }
+                let found = if leader == m {
+                    Beside::empty_lane(j)
+                } else {
+                    Beside { vehicle: leader as u32, offset: self.offset_of(leader, j, s) }
+                };
+                self.set_beside(j, toward, found);
+            }
+        }
+    }
+
+    /// Who is behind m in the lane on that side gets m beside, as far back as m is the next ahead; who is ahead of m
+    /// and behind its leader has m near from now on.
+    fn announce_arrival(&mut self, m: usize, side: Side, s: &[f64]) {
+        let toward = side.opposite();
+        let mut walk = self.back_from_beside(m, side);
+        while let Some(j) = walk.step(&self.behind) {
+            let arrived = Beside { vehicle: m as u32, offset: self.offset_of(m, j, s) };
+            if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
+                if walk.may_be_alongside() {
+                    self.watch.look_at(j);
+                    continue;
+                }
+                break;
+            }
+            self.set_beside(j, toward, arrived);
+            self.watch.look_at(j);
+        }
+        let Some(mut j) = self.beside(m, side).vehicle() else { return };
+        for _ in 0..self.count[self.lane(j)] {
+            if self.beside(j, toward).vehicle() != Some(self.ahead(m)) {
+                break;
+            }
+            self.watch.look_at(j);
+            j = self.ahead(j);
+        }
+    }
+
+    /// The vehicles of the lane on that side that m has gone past since `before`: just behind m, if any.
+    fn find_crossed(&self, m: usize, side: Side, before: &[f64], s: &[f64], crossed: &mut Vec<Pass>) {
+        let mut walk = self.back_from_beside(m, side);
+        while let Some(j) = walk.step(&self.behind) {
+            if self.laps(m, j, s) <= self.laps(m, j, before) {
+                if walk.may_be_alongside() {
+                    continue;
+                }
+                break;
+            }
+            crossed.push(Pass { passer: m as u32, passed: j as u32 });
+        }
+    }
+
+    /// The vehicles of the lane on that side of m, once round, backwards from the one that is at most alongside.
+    fn back_from_beside(&self, m: usize, side: Side) -> BackWalk {
+        match self.beside(m, side).vehicle() {
+            Some(i) => BackWalk::new(self.behind(i), self.count[self.lane(i)]),
+            None => BackWalk::new(0, 0),
+        }
+    }
+
+    fn set_ahead(&mut self, j: usize, leader: usize) {
+        for image in images(j, self.lane.len()) {
+            self.ahead[image] = leader as u32;
+        }
+    }
+
+    fn set_offset(&mut self, j: usize, offset: f64) {
+        for image in images(j, self.lane.len()) {
+            self.offset[image] = offset;
+        }
+    }
+
+    /// Takes m out of its lane; its leader there, if it was not alone.
+    fn leave(&mut self, m: usize, s: &[f64]) -> Option<usize> {
+        let (from, leader, follower) = (self.lane(m), self.ahead(m), self.behind(m));
+        self.count[from] -= 1;
+        if leader == m {
+            self.member[from] = None;
+            return None;
+        }
+        self.set_ahead(follower, leader);
+        self.behind[leader] = follower as u32;
+        self.set_offset(follower, self.offset_of(leader, follower, s));
+        self.member[from] = Some(leader);
+        Some(leader)
+    }
+
+    /// Puts m into a lane, behind `front`, or alone.
+    fn enter(&mut self, m: usize, to: usize, front: Option<usize>, s: &[f64]) {
+        self.lane[m] = to as u8;
+        self.count[to] += 1;
+        self.member[to] = Some(m);
+        let front = front.unwrap_or(m);
+        let rear = if front == m { m } else { self.behind(front) };
+        self.set_ahead(m, front);
+        self.set_ahead(rear, m);
+        (self.behind[m], self.behind[front]) = (rear as u32, m as u32);
+        self.set_offset(rear, self.offset_of(m, rear, s));
+        self.set_offset(m, self.offset_of(front, m, s));
+    }
+
+    /// The next vehicle ahead of m in the lane on that side, starting from what the vehicle behind m has beside it.
+    fn find_in_far_lane(&self, m: usize, side: Side, s: &[f64]) -> Beside {
+        let Some(lane) = self.lane_beside(m, side) else { return Beside::no_lane(m) };
+        let rear = self.behind(m);
+        let hint = self.beside(rear, side);
+        match hint.vehicle() {
+            Some(i) if rear != m => self.walk_ahead(m, i, hint.distance(rear, s) - self.headway(rear, s), s),
+            _ => self.search(m, lane, s),
+        }
+    }
+}
+
+/// Goes back in a lane; see [`Ring::back_from_beside`]. It holds no borrow: the next vehicle is asked for by
+/// [`BackWalk::step`].
+struct BackWalk {
+    next: usize,
+    count: usize,
+    left: usize,
+}
+
+impl BackWalk {
+    fn new(next: usize, count: usize) -> Self {
+        Self { next, count, left: count }
+    }
+
+    /// Whether this is the first one: exactly alongside, it would be a lap behind, and say nothing of those behind it.
+    fn may_be_alongside(&self) -> bool {
+        self.left + 1 == self.count
+    }
+
+    fn step(&mut self, behind: &[u32]) -> Option<usize> {
+        self.left = self.left.checked_sub(1)?;
+        let j = self.next;
+        self.next = behind[j] as usize;
+        Some(j)
+    }
+}

@@ -1,0 +1,21 @@
+// The compiled modules of the core inside the page, as base64, and the page's own script from the page.
+import figuresUrl from '../../pkg-figures/figures_bg.wasm?url&inline'
+import laboratoryUrl from '../../pkg/ringroad_bg.wasm?url&inline'
+import * as figuresDoor from './figures'
+
+const urls = { laboratory: laboratoryUrl, figures: figuresUrl }
+
+// `atob`, since fetching a data: address needs the policy `connect-src data:`, which few pages grant.
+export const wasmBytes = async (module: keyof typeof urls): Promise<ArrayBuffer> => {
+  const url = urls[module]
+  return Uint8Array.from(atob(url.slice(url.indexOf(',') + 1)), c => c.charCodeAt(0)).buffer
+}
+
+/** A classic worker from a blob: module workers from a blob fail in pages opened from disk. */
+export const startWorker = (): Worker => {
+  const script = document.querySelector('script[type=module]')?.textContent ?? ''
+  return new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })))
+}
+
+/** Not by `import()`: what the build makes of it is not allowed in a classic worker. */
+export const figures = async () => figuresDoor

@@ -1,0 +1,32 @@
+// Several views in one place, one at a time.
+import { el } from './dom'
+import { text } from '../text'
+
+export function tabs(views: readonly { id: string; name: string; panel: HTMLElement }[]): HTMLElement {
+  const buttons = views.map(({ id, name, panel }) => {
+    panel.id = `panel-${id}`
+    panel.setAttribute('role', 'tabpanel')
+    panel.setAttribute('aria-labelledby', `tab-${id}`)
+    panel.tabIndex = 0
+    return el('button', { type: 'button', role: 'tab', id: `tab-${id}`, 'aria-controls': `panel-${id}`, onclick: () => choose(id) }, name)
+  })
+  const choose = (id: string) => {
+    views.forEach((view, k) => {
+      const chosen = view.id === id
+      view.panel.hidden = !chosen
+      buttons[k]!.setAttribute('aria-selected', String(chosen))
+      buttons[k]!.tabIndex = chosen ? 0 : -1
+    })
+  }
+  const list = el('div', { role: 'tablist', 'aria-label': text.tabs.label }, ...buttons)
+  list.addEventListener('keydown', event => {
+    const way = { ArrowRight: 1, ArrowLeft: -1 }[event.key]
+    if (way === undefined) return
+    const now = buttons.findIndex(b => b.tabIndex === 0)
+    const next = (now + way + views.length) % views.length
+    choose(views[next]!.id)
+    buttons[next]!.focus()
+  })
+  choose(views[0]!.id)
+  return el('section', { id: 'more', class: 'card', 'aria-label': text.tabs.label }, list, ...views.map(v => v.panel))
+}
