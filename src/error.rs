@@ -39,3 +39,15 @@ impl fmt::Display for Invalid {
 }
 
 impl std::error::Error for Invalid {}
+
+/// A text as a message shows it.
+pub(crate) fn quoted(text: &str) -> String {
+    format!("“{text}”")
+}
+
+/// How a text begins, as a message shows it: of its first line at most 40 characters, none that a terminal obeys.
+pub(crate) fn opening(text: &str) -> String {
+    let line = text.lines().next().unwrap_or_default();
+    let start: String = line.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    quoted(&if start.len() < line.len() { start + "…" } else { start })
+}

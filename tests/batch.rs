@@ -43,7 +43,7 @@ fn all(plan: &Plan) -> BTreeMap<u64, Run> {
 }
 
 fn csv(plan: &Plan, runs: &BTreeMap<u64, Run>) -> String {
-    plan.table(runs).to_csv_of_batch(plan)
+    plan.to_csv(&plan.table(runs))
 }
 
 fn message<T: std::fmt::Debug>(result: Result<T, Invalid>) -> String {
@@ -104,7 +104,7 @@ fn threads_order_and_the_text_between_do_not_matter() {
         let back = Record::read(&text).unwrap();
         assert_eq!(csv(&back.header.plan, &back.runs), expected);
         if plan.check_summary().is_ok() {
-            let summary = |runs| plan.summary(runs).unwrap().to_csv_of_batch(&plan);
+            let summary = |runs| plan.to_csv(&plan.summary(runs).unwrap());
             assert_eq!(summary(&back.runs), summary(&one));
         }
     }

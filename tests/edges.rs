@@ -2,7 +2,7 @@
 
 use ringroad::numerics::random::Generator;
 use ringroad::scenario::{Scenario, Start};
-use ringroad::simulation::frustration::Sampler;
+use ringroad::simulation::attempt_sampler::Sampler;
 use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 

@@ -2,7 +2,7 @@
 //! must hold whatever the number of runs.
 #![cfg(not(target_arch = "wasm32"))]
 
-use ringroad::format::table::Provenance;
+use ringroad::measurement::provenance::Provenance;
 use ringroad::reproduction::claim::{Claim, Verdict};
 use ringroad::reproduction::{FIGURES, Figure, Outcome, Piece, Size};
 use std::sync::LazyLock;

@@ -9,7 +9,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use ringroad::scenario::Scenario;
 use ringroad::scenario::action::Action;
-use ringroad::simulation::frustration::{ExponentialClock, Literal, Sampler};
+use ringroad::simulation::attempt_sampler::{ExponentialClock, Literal, Sampler};
+
 use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 

@@ -3,9 +3,10 @@
 mod common;
 
 use common::theory;
-use ringroad::format::table::{Provenance, Table, Values};
+use ringroad::format::table::{Table, Values};
 use ringroad::measurement::Measurement;
 use ringroad::measurement::probe::{Probe, act, measure};
+use ringroad::measurement::provenance::{Provenance, run_to_csv};
 use ringroad::scenario::driver::Driver;
 use ringroad::scenario::{Scenario, Start};
 use ringroad::simulation::Simulation;
@@ -406,12 +407,12 @@ fn a_table_in_mid_run_is_that_of_a_run_until_then() {
         act(&mut simulation, &mut probes, action.parse().unwrap()).unwrap();
         let reached = Scenario { until: simulation.time(), ..simulation.scenario().clone() };
         for (measurement, probe) in measurements.iter().zip(&probes) {
-            let csv = probe.table().to_csv(&reached, measurement);
+            let csv = run_to_csv(&probe.table(), &reached, measurement);
             let provenance = Provenance::from_csv(&csv).unwrap();
             let again = table(&provenance.scenario, &provenance.measurement.to_json());
             let name = measurement.name();
-            if csv != again.to_csv(&provenance.scenario, &provenance.measurement) {
-                let again = again.to_csv(&provenance.scenario, &provenance.measurement);
+            if csv != run_to_csv(&again, &provenance.scenario, &provenance.measurement) {
+                let again = run_to_csv(&again, &provenance.scenario, &provenance.measurement);
                 let line = csv.lines().zip(again.lines()).find(|(a, b)| a != b);
                 panic!("{name} after step {until}: {line:?}");
             }

@@ -2,9 +2,9 @@
 #![cfg(not(target_arch = "wasm32"))]
 
 use proptest::prelude::*;
-use ringroad::format::table::Provenance;
 use ringroad::measurement::Measurement;
 use ringroad::measurement::probe::{Probe, act, measure};
+use ringroad::measurement::provenance::{Provenance, run_to_csv};
 use ringroad::scenario::Scenario;
 use ringroad::scenario::action::Action;
 use ringroad::simulation::Simulation;
@@ -109,7 +109,7 @@ proptest! {
         let recorded = Scenario::from_json(&live.scenario().to_json()).unwrap();
         prop_assert_eq!(&recorded, live.scenario());
         for (measurement, probe) in measurements.iter().zip(&watching) {
-            let csv = probe.table().to_csv(&recorded, measurement);
+            let csv = run_to_csv(&probe.table(), &recorded, measurement);
             let Provenance { scenario, measurement, .. } = Provenance::from_csv(&csv).unwrap();
             let mut again = [measurement.probe(&scenario).unwrap()];
             let mut replay = Simulation::new(&scenario).unwrap();
@@ -123,7 +123,7 @@ proptest! {
                 };
                 prop_assert_eq!(state(&replay), state(&live), "vehicle {}", j + 1);
             }
-            let again = again[0].table().to_csv(&scenario, &measurement);
+            let again = run_to_csv(&again[0].table(), &scenario, &measurement);
             let different = csv.lines().zip(again.lines()).find(|(a, b)| a != b);
             prop_assert!(csv == again, "{}: {:?}", measurement.name(), different);
         }

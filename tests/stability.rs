@@ -10,7 +10,7 @@ use ringroad::simulation::Simulation;
 use ringroad::stability::Complex64;
 use ringroad::stability::driver_classes::{Ring, slopes};
 use ringroad::stability::homogeneous::{EqualRing, Mode, Time};
-use ringroad::stability::report::Report;
+use ringroad::stability::report::{Lane, Report};
 use ringroad::stability::stabilizing_drivers::{calm_with, parse_changes};
 
 /// Within 1 % or three standard errors.
@@ -301,4 +301,28 @@ fn five_calm_drivers_calm_the_ring_wherever_they_are() {
             assert_eq!(rate < 0.0, stable, "{count} calm drivers, block {in_a_block}: {rate}");
         }
     }
+}
+
+/// The report on the lanes of a simulation as they are now, with the delays in force.
+fn report_now(simulation: &Simulation) -> Report {
+    let scenario = simulation.scenario();
+    let mut lanes = vec![Lane::default(); scenario.lanes];
+    for j in 0..simulation.vehicles() {
+        let lane = &mut lanes[simulation.lane(j)];
+        lane.drivers.push(*simulation.driver(j));
+        lane.delay_steps.push(simulation.delay_steps(j) as u64);
+    }
+    Report::of_lanes(&lanes, scenario.length, scenario.time_step)
+}
+
+#[test]
+fn a_run_reaches_the_delays_that_the_theory_of_its_scenario_assumes() {
+    let mut scenario = Scenario::default();
+    scenario.driver.reaction_time = 0.75;
+    let mut simulation = Simulation::new(&scenario).unwrap();
+    simulation.run_to(60);
+    let early = report_now(&simulation);
+    simulation.run_to(80);
+    assert!(early.stable && early.delay_in_force_s < 0.61);
+    assert_eq!(report_now(&simulation), Report::of(&scenario));
 }

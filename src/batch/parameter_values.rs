@@ -8,8 +8,8 @@
 //! A range ends with the last value that does not go beyond TO. It is counted in decimal whole numbers, so that its
 //! fourth value is 0.15 and not 3 · 0.05 = 0.15000000000000002.
 
-use crate::error::Invalid;
-use crate::scenario::parameters::{PARAMETERS, Parameter, quoted};
+use crate::error::{Invalid, quoted};
+use crate::scenario::parameters::{PARAMETERS, Parameter};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;

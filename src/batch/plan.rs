@@ -1,11 +1,13 @@
 //! Which runs a batch consists of.
 
 use super::parameter_values::Vary;
-use crate::error::Invalid;
+use crate::error::{Invalid, quoted};
+use crate::format::table::Table;
 use crate::measurement::Measurement;
+use crate::measurement::provenance::{PLAN, header_line, with_header};
 use crate::scenario::Scenario;
 use crate::scenario::action::Who;
-use crate::scenario::parameters::{Parameter, quoted};
+use crate::scenario::parameters::Parameter;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -122,6 +124,16 @@ impl Plan {
         }
         let allowed = "a table that has the same columns in every cell, such as overview";
         Err(Invalid::new("table", quoted(self.measurement.name()), allowed))
+    }
+
+    /// A table of its runs as CSV, with the plan in the header.
+    pub fn to_csv(&self, table: &Table) -> String {
+        with_header(table, &[&format!("{PLAN}{}", self.to_json())])
+    }
+
+    /// The plan in the header of a file that [`Plan::to_csv`] wrote.
+    pub fn from_csv(text: &str) -> Result<Self, Invalid> {
+        Self::from_json(header_line(text, PLAN)?).map_err(|e| e.within("CSV header"))
     }
 
     /// What is varied.

@@ -7,9 +7,9 @@
 
 use super::plan::Plan;
 use super::run::Run;
-use crate::error::Invalid;
-use crate::format::table::{Column, VERSION, Values};
-use crate::scenario::parameters::{opening, quoted};
+use crate::error::{Invalid, opening, quoted};
+use crate::format::table::{Column, Values};
+use crate::measurement::provenance::VERSION;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;

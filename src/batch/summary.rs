@@ -4,11 +4,10 @@
 use super::plan::Plan;
 use super::rows::OF_EVERY_RUN;
 use super::run::Run;
-use crate::error::Invalid;
+use crate::error::{Invalid, quoted};
 use crate::format::table::{Column, Table, Values};
 use crate::measurement::Measurement;
 use crate::numerics::statistics::{QUANTILES, Statistics, Student};
-use crate::scenario::parameters::quoted;
 use std::collections::BTreeMap;
 
 /// The columns that say what a row of a measurement is of, where the rows of different runs correspond.

@@ -12,7 +12,6 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::batch::record::{self, Record};
 use ringroad::batch::{Header, Plan, Run, Shard, Vary, run_all};
 use ringroad::error::Invalid;
-use ringroad::format::table::plan_from_csv;
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
@@ -158,7 +157,7 @@ fn plan(matches: &ArgMatches) -> Result<Plan, Failure> {
         stands_alone(matches, "plan", &["plan", "summary", "shard", "threads", "out"])?;
         let text = read(file)?;
         let plan = if text.starts_with('#') {
-            plan_from_csv(&text)
+            Plan::from_csv(&text)
         } else if text.starts_with("{\"ringroad\"") {
             Record::read(&text).map(|record| record.header.plan)
         } else {
@@ -181,7 +180,7 @@ fn plan(matches: &ArgMatches) -> Result<Plan, Failure> {
 
 fn csv(plan: &Plan, runs: &BTreeMap<u64, Run>, summary: bool) -> Result<String, Invalid> {
     let table = if summary { plan.summary(runs)? } else { plan.table(runs) };
-    Ok(table.to_csv_of_batch(plan))
+    Ok(plan.to_csv(&table))
 }
 
 /// Computes what the part does not hold yet.

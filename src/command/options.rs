@@ -4,7 +4,7 @@
 use super::Failure;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::error::Invalid;
-use ringroad::format::table::scenario_of_file;
+use ringroad::measurement::provenance::scenario_of_file;
 use ringroad::scenario::Scenario;
 use ringroad::scenario::parameters::PARAMETERS;
 use ringroad::scenario::presets::{preset, presets};

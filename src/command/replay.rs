@@ -5,7 +5,7 @@ use super::output::Output;
 use super::run::tabulate;
 use super::{Failure, Subcommand};
 use clap::{Arg, ArgMatches, Command};
-use ringroad::format::table::{Provenance, VERSION};
+use ringroad::measurement::provenance::{Provenance, VERSION, run_to_csv};
 use std::process::ExitCode;
 
 /// `ringroad replay`.
@@ -36,7 +36,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::FAILURE);
     }
     let Provenance { scenario, measurement, .. } = Provenance::from_csv(&text).map_err(|e| e.within(file))?;
-    let again = tabulate(&scenario, &measurement)?.0.to_csv(&scenario, &measurement);
+    let again = run_to_csv(&tabulate(&scenario, &measurement)?.0, &scenario, &measurement);
     if again == text {
         Output::Standard.write(&format!("{file}: every byte agrees.\n"))?;
         return Ok(ExitCode::SUCCESS);

@@ -8,6 +8,7 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::error::Invalid;
 use ringroad::format::table::Table;
 use ringroad::measurement::probe::measure;
+use ringroad::measurement::provenance::run_to_csv;
 use ringroad::measurement::{Measurement, SETTINGS};
 use ringroad::scenario::Scenario;
 use ringroad::simulation::{Collision, Simulation};
@@ -118,7 +119,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     } else {
         let measurement = measurement(matches, "trajectories")?;
         let (table, collision) = tabulate(&scenario, &measurement)?;
-        output.write(&table.to_csv(&scenario, &measurement))?;
+        output.write(&run_to_csv(&table, &scenario, &measurement))?;
         if let Some(Collision { time, behind, ahead, .. }) = collision {
             eprintln!(
                 "note: the run ended at {} s: vehicle {} ran into {}",

@@ -5,6 +5,7 @@ use super::output::{self, Output};
 use super::{Failure, Subcommand};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::error::Invalid;
+use ringroad::measurement::provenance::theory_to_csv;
 use ringroad::scenario::Scenario;
 use ringroad::stability::discrete_roots::Factor;
 use ringroad::stability::homogeneous::Time;
@@ -100,7 +101,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     if let Some(text) = matches.get_one::<String>("sweep") {
         let asked: Sweep = text.parse().map_err(|e: Invalid| e.within("--sweep"))?;
         let table = sweep(&scenario, &asked)?;
-        output.write(&table.to_csv_computed(&scenario, &format!("stability --sweep {text}")))?;
+        output.write(&theory_to_csv(&table, &scenario, &format!("stability --sweep {text}")))?;
         return Ok(ExitCode::SUCCESS);
     }
     let roots =

@@ -1,6 +1,6 @@
 //! The summary of a run as JSON.
 
-use ringroad::format::table::VERSION;
+use ringroad::measurement::provenance::VERSION;
 use ringroad::scenario::Scenario;
 use ringroad::simulation::Simulation;
 use serde::Serialize;

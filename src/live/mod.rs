@@ -3,7 +3,7 @@
 //!
 //! Everything here is bounded in memory, however long the run. Tables for files come from the probes.
 
-use crate::error::Invalid;
+use crate::error::{Invalid, quoted};
 use crate::format::table::Table;
 use crate::measurement::modal_growth::{Growth as Modal, Linear};
 use crate::measurement::probe::Probe;
@@ -593,7 +593,7 @@ fn named(name: &str) -> Result<&'static Parameter, Invalid> {
     Parameter::named(name).ok_or_else(|| {
         let names: Vec<_> =
             crate::scenario::parameters::PARAMETERS.iter().map(Parameter::hyphenated).collect();
-        Invalid::new("parameter", crate::scenario::parameters::quoted(name), names.join(", "))
+        Invalid::new("parameter", quoted(name), names.join(", "))
     })
 }
 

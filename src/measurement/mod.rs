@@ -13,6 +13,7 @@
 //! | [`events`], [`lanes`], [`driver_groups`] | lane changes and what they lead to |
 //! | [`settings`] | what to measure, as plain data |
 //! | [`probe`] | what every probe has in common |
+//! | [`provenance`] | what the header of a file says of its making |
 
 pub mod cyclic_growth;
 pub mod driver_groups;
@@ -24,6 +25,7 @@ pub mod modal_growth;
 pub mod modes;
 pub mod overview;
 pub mod probe;
+pub mod provenance;
 pub mod settings;
 mod spectrum;
 pub mod speed_map;
@@ -31,4 +33,5 @@ pub mod speeds;
 pub mod trajectories;
 
 pub use probe::{Probe, act, measure};
+pub use provenance::{Provenance, VERSION};
 pub use settings::{Measurement, SETTINGS, Setting};

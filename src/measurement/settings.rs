@@ -19,10 +19,9 @@ use super::{
     speeds::Speeds,
     trajectories::Trajectories,
 };
-use crate::error::Invalid;
+use crate::error::{Invalid, quoted};
 use crate::format::json::{Json, Object};
 use crate::scenario::Scenario;
-use crate::scenario::parameters::quoted;
 use serde::Serialize;
 
 /// What is measured. Times are in seconds and round to whole steps; vehicles and lanes are numbered from 1.

@@ -20,14 +20,14 @@ mod load_balance;
 mod stability;
 mod waves;
 
-use crate::error::Invalid;
-use crate::format::table::{Column, Table, VERSION, Values};
+use crate::error::{Invalid, quoted};
+use crate::format::table::{Column, Table, Values};
 use crate::measurement::Measurement;
 use crate::measurement::probe::{Probe, measure};
+use crate::measurement::provenance::{VERSION, run_to_csv};
 use crate::plot::Plot;
 use crate::reproduction::claim::{Claim, Estimate, deviation, mean, student_95};
 use crate::scenario::Scenario;
-use crate::scenario::parameters::quoted;
 use crate::simulation::Simulation;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -138,7 +138,7 @@ impl FigureTable {
     /// As CSV. The table of one run can be replayed from its header.
     pub fn to_csv(&self) -> String {
         match &self.source {
-            Source::Run(scenario, measurement) => self.table.to_csv(scenario, measurement),
+            Source::Run(scenario, measurement) => run_to_csv(&self.table, scenario, measurement),
             Source::Summary(scenario, how) => {
                 let mut out = format!("# ringroad {VERSION}\n# figure table {}\n", self.name);
                 let _ = writeln!(out, "# scenario {}", scenario.to_json());

@@ -8,8 +8,8 @@
 //! WHO         all | NUMBER | FIRST-LAST | SHARE%          (a share of the vehicles, drawn by the seed)
 //! ```
 
-use crate::error::Invalid;
-use crate::scenario::parameters::{PARAMETERS, Parameter, quoted};
+use crate::error::{Invalid, quoted};
+use crate::scenario::parameters::{PARAMETERS, Parameter};
 use std::fmt;
 use std::str::FromStr;
 

@@ -4,8 +4,8 @@
 //! `action`, the last two in the grammar of [`crate::scenario::action`]. Only what differs from [`base`] is written. A bad
 //! entry is reported and the rest applies.
 
-use crate::error::Invalid;
-use crate::scenario::parameters::{PARAMETERS, Parameter, quoted};
+use crate::error::{Invalid, quoted};
+use crate::scenario::parameters::{PARAMETERS, Parameter};
 use crate::scenario::{Scenario, Start};
 use std::fmt::Write as _;
 

@@ -10,12 +10,12 @@ pub mod link;
 pub mod parameters;
 pub mod presets;
 
-use crate::error::Invalid;
+use crate::error::{Invalid, quoted};
 use crate::format::json::{Json, Object};
 use crate::numerics::random;
 use crate::scenario::action::{Action, Effect, Exception, Who};
 use crate::scenario::driver::Driver;
-use crate::scenario::parameters::{PARAMETERS, Parameter, Scope, quoted};
+use crate::scenario::parameters::{PARAMETERS, Parameter, Scope};
 use serde::Serialize;
 use std::fmt;
 use std::str::FromStr;

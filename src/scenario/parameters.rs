@@ -3,7 +3,7 @@
 //! The command's options, the link of the page, its sliders, the CSV header, validation and the reference
 //! documentation all come from [`PARAMETERS`]; a parameter is added here and nowhere else.
 
-use crate::error::Invalid;
+use crate::error::{Invalid, quoted};
 use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
 use serde::Serialize;
@@ -185,18 +185,6 @@ impl Parameter {
         let space = if self.unit.is_empty() { "" } else { " " };
         format!("{kind} from {} to {}{space}{}", self.min, self.max, self.unit)
     }
-}
-
-/// A text as a message shows it.
-pub(crate) fn quoted(text: &str) -> String {
-    format!("“{text}”")
-}
-
-/// How a text begins, as a message shows it: of its first line at most 40 characters, none that a terminal obeys.
-pub(crate) fn opening(text: &str) -> String {
-    let line = text.lines().next().unwrap_or_default();
-    let start: String = line.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect();
-    quoted(&if start.len() < line.len() { start + "…" } else { start })
 }
 
 #[cfg(test)]

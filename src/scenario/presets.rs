@@ -1,7 +1,6 @@
 //! Scenarios with names, each with what to notice and what to try next.
 
-use crate::error::Invalid;
-use crate::scenario::parameters::quoted;
+use crate::error::{Invalid, quoted};
 use crate::scenario::{Scenario, Start};
 use serde::Serialize;
 

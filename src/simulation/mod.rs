@@ -23,6 +23,7 @@
 //! A vehicle takes 8 bytes for every step that the longest delay in use looks back, and for two steps more; beside that 215
 //! bytes at most, 275 with several lanes. No step asks for memory.
 
+pub mod attempt_sampler;
 pub mod car_following;
 pub mod delays;
 pub mod frustration;
@@ -30,16 +31,16 @@ pub mod history;
 pub mod lane_order;
 pub(crate) mod pass_detection;
 
-use crate::error::Invalid;
+use crate::error::{Invalid, quoted};
 use crate::numerics::random::{Generator, Stream};
 use crate::numerics::simd::{Aligned, CHUNK, Width};
 use crate::scenario::action::{Action, Effect, Who};
 use crate::scenario::driver::Driver;
-use crate::scenario::parameters::quoted;
 use crate::scenario::{Scenario, assign, check_min_headway};
+use crate::simulation::attempt_sampler::{ExponentialClock, Sampler};
 use crate::simulation::car_following::{Following, REFRESH, Scene};
 use crate::simulation::delays::{Delays, FEW};
-use crate::simulation::frustration::{Comparison, ExponentialClock, Sampler, compare_quietly, compared};
+use crate::simulation::frustration::{Comparison, compare_quietly, compared};
 use crate::simulation::history::{History, padded};
 use crate::simulation::lane_order::{Pass, Ring, Side};
 use crate::simulation::pass_detection::Odometer;

@@ -7,7 +7,6 @@ use super::homogeneous::{Mode, Time};
 use crate::numerics::complex::{Complex64, norm};
 use crate::scenario::Scenario;
 use crate::scenario::driver::{Driver, equilibrium};
-use crate::simulation::Simulation;
 use serde::Serialize;
 use std::f64::consts::{LN_2, PI};
 use std::fmt::Write as _;
@@ -127,17 +126,6 @@ pub fn lanes_of(scenario: &Scenario) -> Vec<Lane> {
         Lane { drivers: own.to_vec(), delay_steps }
     };
     scenario.vehicles_per_lane().into_iter().map(&mut lane).collect()
-}
-
-/// The drivers of every lane of a simulation as it is now, with their delays in force.
-pub fn lanes_now(simulation: &Simulation) -> Vec<Lane> {
-    let mut lanes = vec![Lane::default(); simulation.vehicles_per_lane().len()];
-    for j in 0..simulation.vehicles() {
-        let lane = &mut lanes[simulation.lane(j)];
-        lane.drivers.push(*simulation.driver(j));
-        lane.delay_steps.push(simulation.delay_steps(j) as u64);
-    }
-    lanes
 }
 
 /// The growth of one lane in one time.
@@ -353,12 +341,6 @@ impl Report {
         Self::of_lanes(&lanes_of(scenario), scenario.length, scenario.time_step)
     }
 
-    /// The report on traffic as it is now: its lanes, its drivers, their delays in force.
-    pub fn of_simulation(simulation: &Simulation) -> Self {
-        let scenario = simulation.scenario();
-        Self::of_lanes(&lanes_now(simulation), scenario.length, scenario.time_step)
-    }
-
     /// The report on lanes of `length` metres in steps of `time_step` seconds. At least one lane holds a vehicle.
     ///
     /// # Panics
@@ -536,17 +518,6 @@ mod tests {
         }
         let jam = Scenario { vehicles: 150, ..scenario(1.0) };
         assert!(roots_of_lane(&lanes_of(&jam)[0], 1000.0, 0.01, 1, 200).modes.is_empty());
-    }
-
-    #[test]
-    fn a_running_simulation_is_judged_as_it_is_now() {
-        let scenario = scenario(0.75);
-        let mut simulation = Simulation::new(&scenario).unwrap();
-        simulation.run_to(60);
-        let early = Report::of_simulation(&simulation);
-        simulation.run_to(80);
-        assert!(early.stable && early.delay_in_force_s < 0.61);
-        assert_eq!(Report::of_simulation(&simulation), Report::of(&scenario));
     }
 
     /// Delays still growing towards the reaction time: the verdict is of the delay in force.

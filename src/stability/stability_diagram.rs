@@ -4,11 +4,11 @@
 
 use super::homogeneous::{EqualRing, Time};
 use super::report::Report;
-use crate::error::Invalid;
+use crate::error::{Invalid, quoted};
 use crate::format::table::{Column, Table};
 use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
-use crate::scenario::parameters::{PARAMETERS, Parameter, quoted};
+use crate::scenario::parameters::{PARAMETERS, Parameter};
 
 /// A lane that any number of equal drivers may share.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,17 +2,17 @@
 //! only step.
 
 use super::refusal;
-use crate::error::Invalid;
+use crate::error::{Invalid, quoted};
 use crate::format::json::{self, Json, Object};
-use crate::format::table::{VERSION, scenario_of_file};
 use crate::live::{BINS, COLUMNS, Column, Live, opening};
 use crate::measurement::Measurement;
 use crate::measurement::probe::Probe;
+use crate::measurement::provenance::{VERSION, run_to_csv, scenario_of_file};
 use crate::plot::colour::{Ground, Quantity, Rgb, Scale};
 use crate::scenario::Scenario;
 use crate::scenario::action::Action;
 use crate::scenario::link;
-use crate::scenario::parameters::{PARAMETERS, quoted};
+use crate::scenario::parameters::PARAMETERS;
 use crate::scenario::presets;
 use crate::simulation::Simulation;
 use crate::stability::summary::Verdict;
@@ -548,7 +548,7 @@ impl Export {
 
     /// The table as CSV, the same bytes as the command writes.
     pub fn csv(&self) -> String {
-        self.probe.table().to_csv(self.simulation.scenario(), &self.measurement)
+        run_to_csv(&self.probe.table(), self.simulation.scenario(), &self.measurement)
     }
 }
 

@@ -4,6 +4,7 @@ use ringroad::batch::{Plan, Run, run_all};
 use ringroad::error::Invalid;
 use ringroad::measurement::Measurement;
 use ringroad::measurement::probe::measure;
+use ringroad::measurement::provenance::run_to_csv;
 use ringroad::scenario::Scenario;
 use ringroad::scenario::presets::preset;
 use ringroad::simulation::Simulation;
@@ -50,7 +51,7 @@ pub fn hash(mut simulation: Simulation, measurement: &Measurement) -> String {
     let scenario = simulation.scenario().clone();
     let mut probes = [measurement.probe(&scenario).unwrap()];
     measure(&mut simulation, &mut probes, &mut |_| true);
-    digest(&probes[0].table().to_csv(&scenario, measurement))
+    digest(&run_to_csv(&probes[0].table(), &scenario, measurement))
 }
 
 /// The same of the summary of a small batch, lane changes, collisions and confidence intervals included.
@@ -66,7 +67,7 @@ pub fn batch() -> String {
         Ok::<(), Invalid>(())
     });
     assert_eq!(finished, Ok(true));
-    digest(&plan.summary(&runs).unwrap().to_csv_of_batch(&plan))
+    digest(&plan.to_csv(&plan.summary(&runs).unwrap()))
 }
 
 /// Holds what is computed here against what the native test wrote just before.

@@ -9,7 +9,8 @@ use ringroad::numerics::random::{Generator, Stream};
 use ringroad::scenario::action::{Action, Effect, Who};
 use ringroad::scenario::driver::Driver;
 use ringroad::scenario::{Scenario, Start};
-use ringroad::simulation::frustration::{EQUAL, Sampler};
+use ringroad::simulation::attempt_sampler::Sampler;
+use ringroad::simulation::frustration::EQUAL;
 use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 
