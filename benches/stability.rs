@@ -11,8 +11,8 @@ mod cases {
     use criterion::Criterion;
     use ringroad::scenario::Scenario;
     use ringroad::stability::report::Report;
-    use ringroad::stability::stability_diagram::Plane;
-    use ringroad::stability::stabilizing_drivers::{calm_with, parse_changes};
+    use ringroad::stability::stability_diagram::StabilityDiagram;
+    use ringroad::stability::stabilizing_drivers::{parse_changes, stabilizing_drivers};
     use std::hint::black_box;
 
     fn scenario(vehicles: usize, exceptions: &[&str]) -> Scenario {
@@ -39,7 +39,7 @@ mod cases {
             });
         }
         let scenario = scenario(50, &[]);
-        let plane = Plane::of(&scenario);
+        let plane = StabilityDiagram::of(&scenario);
         let numbers: Vec<_> = (2..=133).collect();
         criterion.bench_function("curves of the plane, every mode, both times, N = 2 … 133", |b| {
             b.iter(|| {
@@ -60,7 +60,7 @@ mod cases {
         }
         let changes = parse_changes("reaction-time=0").unwrap();
         criterion.bench_function("how many calm drivers, N = 50", |b| {
-            b.iter(|| black_box(calm_with(&scenario, &changes).unwrap()));
+            b.iter(|| black_box(stabilizing_drivers(&scenario, &changes).unwrap()));
         });
     }
 }

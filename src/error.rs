@@ -5,7 +5,7 @@ use std::fmt;
 
 /// A refused input.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Invalid {
+pub struct Error {
     /// The field, as the person who wrote it knows it.
     pub field: Cow<'static, str>,
     /// The value that was given.
@@ -14,7 +14,7 @@ pub struct Invalid {
     pub allowed: Cow<'static, str>,
 }
 
-impl Invalid {
+impl Error {
     /// A refusal of `value` for `field`.
     pub fn new(
         field: impl Into<Cow<'static, str>>,
@@ -32,13 +32,13 @@ impl Invalid {
     }
 }
 
-impl fmt::Display for Invalid {
+impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {} is not allowed; allowed: {}", self.field, self.value, self.allowed)
     }
 }
 
-impl std::error::Error for Invalid {}
+impl std::error::Error for Error {}
 
 /// A text as a message shows it.
 pub(crate) fn quoted(text: &str) -> String {

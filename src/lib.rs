@@ -18,7 +18,7 @@
 //! | [`measurement`] | what to measure, the probes, and what the header of a file says of its making |
 //! | [`stability`], [`simulation`] | linear theory; the state and its step. Neither knows the other |
 //! | [`scenario`] | parameters, drivers, actions, presets, links, validation |
-//! | [`format`], [`plot`] | JSON and tables; tables to pictures |
+//! | [`mod@format`], [`plot`] | JSON and tables; tables to pictures |
 //! | [`numerics`], [`error`] | exponential, complex functions, vectors, random numbers, statistics; what a refusal says |
 //!
 //! Cargo features: `command` (by default) builds the command and brings `parallel`, batches and figures on all cores.

@@ -2,8 +2,8 @@
 //! refused before anything runs.
 
 use ringroad::batch::record::{self, Record};
-use ringroad::batch::{Header, Plan, Run, Shard, Vary, run_all};
-use ringroad::error::Invalid;
+use ringroad::batch::{Header, ParameterValues, Plan, Run, Shard, run_all};
+use ringroad::error::Error;
 use ringroad::measurement::Measurement;
 use ringroad::scenario::Scenario;
 use ringroad::scenario::presets::preset;
@@ -15,7 +15,7 @@ fn scenario() -> Scenario {
     Scenario { vehicles: 20, length: 400.0, until: 60.0, ..preset("load-balance").unwrap().scenario }
 }
 
-fn varied(texts: &[&str]) -> Vec<Vary> {
+fn varied(texts: &[&str]) -> Vec<ParameterValues> {
     texts.iter().map(|text| text.parse().unwrap()).collect()
 }
 
@@ -32,7 +32,7 @@ fn runs(plan: &Plan, numbers: &[u64], threads: usize) -> BTreeMap<u64, Run> {
     let mut runs = BTreeMap::new();
     let finished = run_all(plan, numbers, Some(threads), &|_| true, &mut |run: Run| {
         assert!(runs.insert(run.number, run).is_none());
-        Ok::<(), Invalid>(())
+        Ok::<(), Error>(())
     });
     assert_eq!(finished, Ok(true));
     runs
@@ -46,7 +46,7 @@ fn csv(plan: &Plan, runs: &BTreeMap<u64, Run>) -> String {
     plan.to_csv(&plan.table(runs))
 }
 
-fn message<T: std::fmt::Debug>(result: Result<T, Invalid>) -> String {
+fn message<T: std::fmt::Debug>(result: Result<T, Error>) -> String {
     result.unwrap_err().to_string()
 }
 
@@ -373,7 +373,7 @@ fn it_can_be_cancelled_within_a_run_and_between_runs() {
         &|work| done.fetch_add(work, Ordering::Relaxed) + work < total / 2,
         &mut |_| {
             finished += 1;
-            Ok::<(), Invalid>(())
+            Ok::<(), Error>(())
         },
     );
     assert_eq!(went_on, Ok(false));
@@ -384,13 +384,13 @@ fn it_can_be_cancelled_within_a_run_and_between_runs() {
         done.fetch_add(work, Ordering::Relaxed);
         true
     };
-    run_all(&plan, &numbers, None, &count, &mut |_| Ok::<(), Invalid>(())).unwrap();
+    run_all(&plan, &numbers, None, &count, &mut |_| Ok::<(), Error>(())).unwrap();
     assert_eq!(done.into_inner(), total);
     // Within a run: one that would take a day.
     let long = Scenario { vehicles: 10_000, length: 1e6, until: 1e7, ..Scenario::default() };
     let long = Plan::new(long, vec![], 1, Measurement::named("outcome").unwrap()).unwrap();
     assert_eq!(long.run(0, &mut |_| false).unwrap(), None);
     // A refusal by whoever takes the runs stops it, too.
-    let refusal = || Invalid::new("disk", "full", "room");
+    let refusal = || Error::new("disk", "full", "room");
     assert_eq!(run_all(&plan, &numbers, Some(1), &|_| true, &mut |_| Err(refusal())), Err(refusal()));
 }

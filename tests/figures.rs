@@ -3,8 +3,8 @@
 #![cfg(not(target_arch = "wasm32"))]
 
 use ringroad::measurement::provenance::Provenance;
-use ringroad::reproduction::claim::{Claim, Verdict};
-use ringroad::reproduction::{FIGURES, Figure, Outcome, Piece, Size};
+use ringroad::reproduction::claim::{Claim, ClaimVerdict};
+use ringroad::reproduction::{FIGURES, Figure, Outcome, Size, TaskResult};
 use std::sync::LazyLock;
 
 static OUTCOMES: LazyLock<Vec<(&'static Figure, Outcome)>> =
@@ -96,12 +96,12 @@ fn pictures_are_well_formed_and_say_what_they_show() {
 fn pieces_may_be_done_in_any_order_and_cross_as_arrays() {
     let figure = Figure::named("load-balance").unwrap();
     let count = figure.pieces(Size::Small).len();
-    let mut pieces: Vec<Option<Piece>> = vec![None; count];
+    let mut pieces: Vec<Option<TaskResult>> = vec![None; count];
     for k in (0..count).rev() {
         let crossed = figure.run(Size::Small, k).flat();
-        pieces[k] = Some(Piece::from_flat(&crossed).unwrap());
+        pieces[k] = Some(TaskResult::from_flat(&crossed).unwrap());
     }
-    let pieces: Vec<Piece> = pieces.into_iter().map(Option::unwrap).collect();
+    let pieces: Vec<TaskResult> = pieces.into_iter().map(Option::unwrap).collect();
     let again = figure.assemble(Size::Small, &pieces).unwrap();
     let first = outcome("load-balance");
     assert_eq!(again.plot.to_svg(), first.plot.to_svg());
@@ -154,7 +154,7 @@ fn claims_that_must_hold_do() {
         ("aggressive-driver", "jump of frustration"),
     ] {
         let claim = claim(&outcome(id).claims, words);
-        assert_eq!(claim.verdict(), Verdict::Agrees, "{} — {}", claim.claim, claim.ours_in_words());
+        assert_eq!(claim.verdict(), ClaimVerdict::Agrees, "{} — {}", claim.claim, claim.ours_in_words());
     }
 }
 
@@ -162,7 +162,7 @@ fn claims_that_must_hold_do() {
 #[test]
 fn a_number_that_contradicts_the_papers_own_formula_is_not_bent_to_agree() {
     let claim = claim(&outcome("fundamental-diagram").claims, "at 25 veh/km");
-    assert_eq!(claim.verdict(), Verdict::Differs);
+    assert_eq!(claim.verdict(), ClaimVerdict::Differs);
     assert!((claim.ours().value - 2002.6).abs() < 0.1, "{}", claim.ours_in_words());
 }
 
@@ -214,15 +214,15 @@ fn every_row_of_the_specification_is_there() {
 #[test]
 fn a_perturbed_value_flips_its_verdict() {
     let figure = Figure::named("load-balance").unwrap();
-    let mut pieces: Vec<Piece> =
+    let mut pieces: Vec<TaskResult> =
         (0..figure.pieces(Size::Small).len()).map(|k| figure.run(Size::Small, k)).collect();
-    let verdict = |pieces: &[Piece]| {
+    let verdict = |pieces: &[TaskResult]| {
         let outcome = figure.assemble(Size::Small, pieces).unwrap();
         claim(&outcome.claims, "the lanes become balanced").verdict()
     };
-    assert_eq!(verdict(&pieces), Verdict::Agrees);
+    assert_eq!(verdict(&pieces), ClaimVerdict::Agrees);
     for piece in &mut pieces {
         piece.columns[1].iter_mut().for_each(|imbalance| *imbalance = 20.0);
     }
-    assert_eq!(verdict(&pieces), Verdict::Differs);
+    assert_eq!(verdict(&pieces), ClaimVerdict::Differs);
 }

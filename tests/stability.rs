@@ -1,17 +1,17 @@
 //! Linear theory against simulation: growth rates mode by mode, equal drivers and drivers that differ.
 
 use nalgebra::{DMatrix, DVector};
-use ringroad::measurement::modal_growth::{Growth, Linear};
+use ringroad::measurement::modal_growth::{Linear, ModalGrowth};
 use ringroad::measurement::probe::{Probe, measure};
 use ringroad::numerics::least_squares;
 use ringroad::scenario::Scenario;
 use ringroad::scenario::driver::{Driver, equilibrium};
 use ringroad::simulation::Simulation;
 use ringroad::stability::Complex64;
-use ringroad::stability::driver_classes::{Ring, slopes};
-use ringroad::stability::homogeneous::{EqualRing, Mode, Time};
+use ringroad::stability::driver_classes::{DriverClasses, slopes};
+use ringroad::stability::homogeneous::{HomogeneousRing, Mode, Time};
 use ringroad::stability::report::{Lane, Report};
-use ringroad::stability::stabilizing_drivers::{calm_with, parse_changes};
+use ringroad::stability::stabilizing_drivers::{parse_changes, stabilizing_drivers};
 
 /// Within 1 % or three standard errors.
 fn agrees(measured: f64, error: f64, predicted: f64) -> bool {
@@ -32,14 +32,14 @@ fn measured(
     scenario.driver.reaction_time = reaction_time;
     scenario.actions.push(format!("at=0:1:nudge={nudge}").parse().unwrap());
     let from = scenario.steps(1.0 + 10.0 * reaction_time);
-    let mut probes: [Box<dyn Probe>; 1] = [Box::new(Growth::new(10, modes, 0, from, linear))];
+    let mut probes: [Box<dyn Probe>; 1] = [Box::new(ModalGrowth::new(10, modes, 0, from, linear))];
     measure(&mut Simulation::new(&scenario).unwrap(), &mut probes, &mut |_| true);
     let table = probes[0].table();
     let rates = table.floats("growth_rate_per_s").unwrap();
     let errors = table.floats("standard_error_per_s").unwrap();
     let points = table.wholes("points").unwrap();
     // The table carries the theory beside the measurement.
-    let ring = EqualRing { vehicles: 50, slope: Driver::default().slope(20.0) };
+    let ring = HomogeneousRing { vehicles: 50, slope: Driver::default().slope(20.0) };
     for (k, &predicted) in table.floats("predicted_per_s").unwrap().iter().enumerate() {
         let root = ring.root(k + 1, reaction_time, Time::Steps(0.01));
         assert!(points[k] == 0 || (predicted - root.re).abs() < 1e-12);
@@ -50,7 +50,7 @@ fn measured(
 /// N = 50, Δ from 0 to 0.8 s: modes 1–10 where the ring is stable, all growing modes where it is not.
 #[test]
 fn every_mode_grows_as_the_difference_equation_says() {
-    let ring = EqualRing { vehicles: 50, slope: Driver::default().slope(20.0) };
+    let ring = HomogeneousRing { vehicles: 50, slope: Driver::default().slope(20.0) };
     let (mut compared, mut left_out) = (0, 0);
     for k in 0..=16 {
         let reaction_time = f64::from(k) * 0.05;
@@ -101,7 +101,7 @@ fn the_size_of_the_waves_moves_a_growth_rate_by_less_than_its_bound() {
             scenario.driver.reaction_time = reaction_time;
             scenario.actions.push(format!("at=0:1:nudge={nudge}").parse().unwrap());
             let from = scenario.steps(20.0 * reaction_time);
-            let mut probes: [Box<dyn Probe>; 1] = [Box::new(Growth::new(50, 10, 0, from, linear))];
+            let mut probes: [Box<dyn Probe>; 1] = [Box::new(ModalGrowth::new(50, 10, 0, from, linear))];
             measure(&mut Simulation::new(&scenario).unwrap(), &mut probes, &mut |_| true);
             let t = probes[0].table();
             let column = |name: &str| t.floats(name).unwrap();
@@ -155,7 +155,7 @@ fn dominant(scenario: &Scenario) -> (Mode, f64, f64) {
     let slopes = slopes(&drivers, scenario.length);
     let delays: Vec<_> =
         drivers.iter().map(|d| scenario.steps(d.reaction_time) as f64 * scenario.time_step).collect();
-    let ring = Ring::new(slopes.iter().copied().zip(delays.iter().copied()));
+    let ring = DriverClasses::new(slopes.iter().copied().zip(delays.iter().copied()));
     let mut modes = ring.followed(time).modes;
     modes.dedup_by_key(|m| m.mode);
     assert_eq!(modes.len(), n / 2);
@@ -248,7 +248,7 @@ fn fourier_modes_of_mixed_rings_follow_the_roots_of_their_own_number() {
     let linear = Linear { smallest: 1e-10, nonlinearity: 1e-2 };
     let table = |scenario: &Scenario| {
         let from = scenario.steps(60.0);
-        let mut probes: [Box<dyn Probe>; 1] = [Box::new(Growth::new(50, 16, 0, from, linear))];
+        let mut probes: [Box<dyn Probe>; 1] = [Box::new(ModalGrowth::new(50, 16, 0, from, linear))];
         measure(&mut Simulation::new(scenario).unwrap(), &mut probes, &mut |_| true);
         probes[0].table()
     };
@@ -291,7 +291,7 @@ fn fourier_modes_of_mixed_rings_follow_the_roots_of_their_own_number() {
 fn five_calm_drivers_calm_the_ring_wherever_they_are() {
     let mut scenario = Scenario::default();
     scenario.driver.reaction_time = 0.75;
-    let calming = calm_with(&scenario, &parse_changes("reaction-time=0").unwrap()).unwrap();
+    let calming = stabilizing_drivers(&scenario, &parse_changes("reaction-time=0").unwrap()).unwrap();
     assert_eq!(calming.smallest_calming_number, Some(5));
     for in_a_block in [true, false] {
         for (count, stable) in [(4, false), (5, true)] {

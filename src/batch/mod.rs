@@ -27,7 +27,7 @@ pub mod rows;
 pub mod run;
 pub mod summary;
 
-pub use parameter_values::Vary;
+pub use parameter_values::ParameterValues;
 pub use plan::Plan;
 pub use record::{Header, Shard};
 pub use run::{Run, run_all};

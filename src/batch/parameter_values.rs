@@ -8,7 +8,7 @@
 //! A range ends with the last value that does not go beyond TO. It is counted in decimal whole numbers, so that its
 //! fourth value is 0.15 and not 3 · 0.05 = 0.15000000000000002.
 
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::scenario::parameters::{PARAMETERS, Parameter};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -20,15 +20,15 @@ pub const MOST_VALUES: usize = 100_000;
 /// A parameter and the values that it takes, all of them different and allowed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
-pub struct Vary {
+pub struct ParameterValues {
     parameter: &'static Parameter,
     values: Vec<f64>,
 }
 
-impl Vary {
+impl ParameterValues {
     /// A parameter, except the seed, with its values.
-    pub fn new(parameter: &'static Parameter, values: Vec<f64>) -> Result<Self, Invalid> {
-        let refuse = |value: String, allowed: String| Err(Invalid::new("vary", value, allowed));
+    pub fn new(parameter: &'static Parameter, values: Vec<f64>) -> Result<Self, Error> {
+        let refuse = |value: String, allowed: String| Err(Error::new("vary", value, allowed));
         if parameter.name == "seed" {
             return refuse(
                 quoted("seed"),
@@ -60,43 +60,43 @@ impl Vary {
     }
 }
 
-impl fmt::Display for Vary {
+impl fmt::Display for ParameterValues {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let values: Vec<_> = self.values.iter().map(f64::to_string).collect();
         write!(f, "{}={}", self.parameter.hyphenated(), values.join(","))
     }
 }
 
-impl From<Vary> for String {
-    fn from(vary: Vary) -> Self {
+impl From<ParameterValues> for String {
+    fn from(vary: ParameterValues) -> Self {
         vary.to_string()
     }
 }
 
-impl TryFrom<String> for Vary {
-    type Error = Invalid;
-    fn try_from(text: String) -> Result<Self, Invalid> {
+impl TryFrom<String> for ParameterValues {
+    type Error = Error;
+    fn try_from(text: String) -> Result<Self, Error> {
         text.parse()
     }
 }
 
-impl FromStr for Vary {
-    type Err = Invalid;
-    fn from_str(text: &str) -> Result<Self, Invalid> {
+impl FromStr for ParameterValues {
+    type Err = Error;
+    fn from_str(text: &str) -> Result<Self, Error> {
         let (name, items) = text.split_once('=').ok_or_else(|| {
             let form = "NAME=VALUES, such as reaction-time=0:0.8:0.05 or lanes=1,2,4";
-            Invalid::new("vary", quoted(text), form)
+            Error::new("vary", quoted(text), form)
         })?;
         let parameter = Parameter::named(name.trim()).ok_or_else(|| {
             let names: Vec<_> = PARAMETERS.iter().map(Parameter::hyphenated).collect();
-            Invalid::new("vary", quoted(name), names.join(", "))
+            Error::new("vary", quoted(name), names.join(", "))
         })?;
         let mut values = Vec::new();
         for item in items.split(',') {
             values.extend(expand(item.trim()).map_err(|e| e.within(format!("vary {}", name.trim())))?);
             if values.len() > MOST_VALUES {
                 let allowed = format!("at most {MOST_VALUES} values of one parameter");
-                return Err(Invalid::new("vary", quoted(text), allowed));
+                return Err(Error::new("vary", quoted(text), allowed));
             }
         }
         Self::new(parameter, values)
@@ -104,8 +104,8 @@ impl FromStr for Vary {
 }
 
 /// A value or a range.
-fn expand(item: &str) -> Result<Vec<f64>, Invalid> {
-    let refuse = |allowed: &'static str| Invalid::new("values", quoted(item), allowed);
+fn expand(item: &str) -> Result<Vec<f64>, Error> {
+    let refuse = |allowed: &'static str| Error::new("values", quoted(item), allowed);
     let parts: Vec<_> = item.split(':').collect();
     let (from, to, by) = match parts[..] {
         [value] => {
@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     fn values(text: &str) -> Vec<f64> {
-        text.parse::<Vary>().unwrap().values
+        text.parse::<ParameterValues>().unwrap().values
     }
 
     #[test]
@@ -175,7 +175,7 @@ mod tests {
         assert_eq!(range.len(), 17);
         let written = "0,0.05,0.1,0.15,0.2,0.25,0.3,0.35,0.4,0.45,0.5,0.55,0.6,0.65,0.7,0.75,0.8";
         assert_eq!(
-            "reaction-time=0:0.8:0.05".parse::<Vary>().unwrap().to_string(),
+            "reaction-time=0:0.8:0.05".parse::<ParameterValues>().unwrap().to_string(),
             format!("reaction-time={written}")
         );
         assert!(3.0 * 0.05 != 0.15 && range[3] == 0.15);
@@ -194,9 +194,12 @@ mod tests {
 
     #[test]
     fn what_is_written_reads_back() {
-        let vary: Vary = "reaction_time=0.1,1e-9,3:4:0.3".parse().unwrap();
-        assert_eq!(vary.to_string().parse::<Vary>().unwrap(), vary);
-        assert_eq!(serde_json::from_str::<Vary>(&serde_json::to_string(&vary).unwrap()).unwrap(), vary);
+        let vary: ParameterValues = "reaction_time=0.1,1e-9,3:4:0.3".parse().unwrap();
+        assert_eq!(vary.to_string().parse::<ParameterValues>().unwrap(), vary);
+        assert_eq!(
+            serde_json::from_str::<ParameterValues>(&serde_json::to_string(&vary).unwrap()).unwrap(),
+            vary
+        );
     }
 
     #[test]
@@ -216,7 +219,7 @@ mod tests {
             ("reaction-time=", "a number"),
             ("reaction-time=NaN", "NaN"),
         ] {
-            let message = text.parse::<Vary>().unwrap_err().to_string();
+            let message = text.parse::<ParameterValues>().unwrap_err().to_string();
             assert!(message.contains(named), "{text}: {message}");
         }
     }

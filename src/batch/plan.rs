@@ -1,12 +1,12 @@
 //! Which runs a batch consists of.
 
-use super::parameter_values::Vary;
-use crate::error::{Invalid, quoted};
+use super::parameter_values::ParameterValues;
+use crate::error::{Error, quoted};
 use crate::format::table::Table;
 use crate::measurement::Measurement;
 use crate::measurement::provenance::{PLAN, header_line, with_header};
 use crate::scenario::Scenario;
-use crate::scenario::action::Who;
+use crate::scenario::action::VehicleSelector;
 use crate::scenario::parameters::Parameter;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -26,7 +26,7 @@ const FORMAT: u64 = 1;
 #[serde(into = "Data", try_from = "Data")]
 pub struct Plan {
     scenario: Scenario,
-    vary: Vec<Vary>,
+    vary: Vec<ParameterValues>,
     runs: u64,
     measurement: Measurement,
 }
@@ -38,7 +38,7 @@ struct Data {
     version: u64,
     scenario: Value,
     #[serde(default)]
-    vary: Vec<Vary>,
+    vary: Vec<ParameterValues>,
     #[serde(default = "one")]
     runs: u64,
     measurement: Value,
@@ -52,15 +52,15 @@ impl Plan {
     /// `runs` seeds of every combination of the varied values. In the scenario, the values of what is varied do not matter.
     pub fn new(
         mut scenario: Scenario,
-        vary: Vec<Vary>,
+        vary: Vec<ParameterValues>,
         runs: u64,
         measurement: Measurement,
-    ) -> Result<Self, Invalid> {
+    ) -> Result<Self, Error> {
         for (i, varied) in vary.iter().enumerate() {
             let parameter = varied.parameter();
             if vary[..i].iter().any(|v| v.parameter() == parameter) {
                 let name = parameter.hyphenated();
-                return Err(Invalid::new("vary", quoted(&name), "every parameter once, with all its values"));
+                return Err(Error::new("vary", quoted(&name), "every parameter once, with all its values"));
             }
             parameter.set(&mut scenario, varied.values()[0])?;
         }
@@ -70,29 +70,33 @@ impl Plan {
         Ok(plan)
     }
 
-    fn check_size(&self) -> Result<(), Invalid> {
+    fn check_size(&self) -> Result<(), Error> {
         if self.runs == 0 {
-            return Err(Invalid::new("runs", 0, "at least one run of every cell"));
+            return Err(Error::new("runs", 0, "at least one run of every cell"));
         }
         let cells = self.vary.iter().map(|v| v.values().len() as f64).product::<f64>();
         let total = cells * self.runs as f64;
         if total > MOST_RUNS as f64 {
             let value = format!("{cells} cells of {} runs, {total} runs in all", self.runs);
-            return Err(Invalid::new("batch", value, format!("at most {MOST_RUNS} runs")));
+            return Err(Error::new("batch", value, format!("at most {MOST_RUNS} runs")));
         }
         let seed = Parameter::named("seed").expect("a parameter of the table");
         seed.check(self.scenario.seed as f64 + (self.runs - 1) as f64)
             .map_err(|e| e.within(format!("seed of the last of {} runs", self.runs)))
     }
 
-    fn check_cells(&self) -> Result<(), Invalid> {
+    fn check_cells(&self) -> Result<(), Error> {
         // Who belongs to a share depends on the seed, and with it whether a start fits.
         let shares = self.scenario.exceptions.iter().map(|e| e.who);
         let shares = shares.chain(self.scenario.actions.iter().map(|a| a.who));
-        let seeds = if shares.into_iter().any(|who| matches!(who, Who::Share(_))) { self.runs } else { 1 };
+        let seeds = if shares.into_iter().any(|who| matches!(who, VehicleSelector::Share(_))) {
+            self.runs
+        } else {
+            1
+        };
         let mut memory = 0.0;
         for cell in 0..self.cells() {
-            let place = |e: Invalid| if self.vary.is_empty() { e } else { e.within(self.cell_name(cell)) };
+            let place = |e: Error| if self.vary.is_empty() { e } else { e.within(self.cell_name(cell)) };
             for k in 0..seeds {
                 let scenario = self.scenario(cell * self.runs + k);
                 scenario.validate().map_err(place)?;
@@ -106,13 +110,13 @@ impl Plan {
         if memory > MOST_MEMORY {
             const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
             let allowed = format!("at most {} GiB: measure less often, or less", MOST_MEMORY / GIB);
-            return Err(Invalid::new("rows of all runs", format!("{:.1} GiB", memory / GIB), allowed));
+            return Err(Error::new("rows of all runs", format!("{:.1} GiB", memory / GIB), allowed));
         }
         Ok(())
     }
 
     /// Some tables have columns for each lane or vehicle; all runs must have the same ones.
-    fn check_columns(&self, scenario: &Scenario) -> Result<(), Invalid> {
+    fn check_columns(&self, scenario: &Scenario) -> Result<(), Error> {
         let shape = |scenario: &Scenario| match self.measurement.resolved(scenario) {
             Measurement::Lanes { .. } => vec![scenario.lanes],
             Measurement::Speeds { vehicles, .. } => vehicles.unwrap_or_default(),
@@ -123,7 +127,7 @@ impl Plan {
             return Ok(());
         }
         let allowed = "a table that has the same columns in every cell, such as overview";
-        Err(Invalid::new("table", quoted(self.measurement.name()), allowed))
+        Err(Error::new("table", quoted(self.measurement.name()), allowed))
     }
 
     /// A table of its runs as CSV, with the plan in the header.
@@ -132,12 +136,12 @@ impl Plan {
     }
 
     /// The plan in the header of a file that [`Plan::to_csv`] wrote.
-    pub fn from_csv(text: &str) -> Result<Self, Invalid> {
+    pub fn from_csv(text: &str) -> Result<Self, Error> {
         Self::from_json(header_line(text, PLAN)?).map_err(|e| e.within("CSV header"))
     }
 
     /// What is varied.
-    pub fn vary(&self) -> &[Vary] {
+    pub fn vary(&self) -> &[ParameterValues] {
         &self.vary
     }
 
@@ -206,8 +210,8 @@ impl Plan {
     }
 
     /// Reads JSON and checks every cell.
-    pub fn from_json(text: &str) -> Result<Self, Invalid> {
-        serde_json::from_str(text).map_err(|e| Invalid::new("plan", e, "a plan in JSON"))
+    pub fn from_json(text: &str) -> Result<Self, Error> {
+        serde_json::from_str(text).map_err(|e| Error::new("plan", e, "a plan in JSON"))
     }
 
     /// Where another plan differs from this one, as far as a sentence can say: `runs is 10 and not 20`.
@@ -246,10 +250,10 @@ impl From<Plan> for Data {
 }
 
 impl TryFrom<Data> for Plan {
-    type Error = Invalid;
-    fn try_from(data: Data) -> Result<Self, Invalid> {
+    type Error = Error;
+    fn try_from(data: Data) -> Result<Self, Error> {
         if data.version != FORMAT {
-            return Err(Invalid::new("version of the plan", data.version, FORMAT.to_string()));
+            return Err(Error::new("version of the plan", data.version, FORMAT.to_string()));
         }
         let scenario = Scenario::from_json(&data.scenario.to_string())?;
         let measurement = Measurement::from_json(&data.measurement.to_string())?;

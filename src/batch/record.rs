@@ -7,7 +7,7 @@
 
 use super::plan::Plan;
 use super::run::Run;
-use crate::error::{Invalid, opening, quoted};
+use crate::error::{Error, opening, quoted};
 use crate::format::table::{Column, Values};
 use crate::measurement::provenance::VERSION;
 use serde::{Deserialize, Serialize};
@@ -55,21 +55,21 @@ impl From<Shard> for String {
 }
 
 impl TryFrom<String> for Shard {
-    type Error = Invalid;
-    fn try_from(text: String) -> Result<Self, Invalid> {
+    type Error = Error;
+    fn try_from(text: String) -> Result<Self, Error> {
         text.parse()
     }
 }
 
 impl FromStr for Shard {
-    type Err = Invalid;
-    fn from_str(text: &str) -> Result<Self, Invalid> {
+    type Err = Error;
+    fn from_str(text: &str) -> Result<Self, Error> {
         let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
         match numbers {
             Some((index, count)) if 1 <= index && index <= count && count <= super::plan::MOST_RUNS => {
                 Ok(Self { index, count })
             }
-            _ => Err(Invalid::new("shard", quoted(text), "i/n with i from 1 to n, such as 1/4")),
+            _ => Err(Error::new("shard", quoted(text), "i/n with i from 1 to n, such as 1/4")),
         }
     }
 }
@@ -100,8 +100,8 @@ impl Header {
     }
 
     /// Why runs under the `found` header cannot be taken for runs of this one.
-    fn check(&self, found: &Self) -> Result<(), Invalid> {
-        let refuse = |what: String, allowed: &'static str| Err(Invalid::new("batch", what, allowed));
+    fn check(&self, found: &Self) -> Result<(), Error> {
+        let refuse = |what: String, allowed: &'static str| Err(Error::new("batch", what, allowed));
         if self.ringroad != found.ringroad {
             let what = format!("runs of version {} and not {}", found.ringroad, self.ringroad);
             return refuse(what, "runs of one version: a seed may mean another run in another");
@@ -164,15 +164,15 @@ pub struct Record {
 
 impl Record {
     /// Reads a text. It may break off anywhere after the header; a line that makes no sense elsewhere is refused.
-    pub fn read(text: &str) -> Result<Self, Invalid> {
+    pub fn read(text: &str) -> Result<Self, Error> {
         let allowed = "finished runs that ringroad batch wrote, with their plan";
-        let refuse = || Invalid::new("batch", opening(text), allowed);
+        let refuse = || Error::new("batch", opening(text), allowed);
         let (first, _) = text.split_once('\n').ok_or_else(refuse)?;
         if !first.starts_with("{\"ringroad\":") {
             return Err(refuse());
         }
         let header: Header =
-            serde_json::from_str(first).map_err(|e| Invalid::new("header", e, "the plan of a batch"))?;
+            serde_json::from_str(first).map_err(|e| Error::new("header", e, "the plan of a batch"))?;
         let columns = header.plan.columns();
         let mut record = Self { header, runs: BTreeMap::new(), whole: first.len() + 1 };
         for (k, line) in text[record.whole..].split_inclusive('\n').enumerate() {
@@ -183,7 +183,7 @@ impl Record {
             let Header { plan, shard, .. } = &record.header;
             let run = parse(line, &columns).filter(|r| r.number < plan.runs() && shard.holds(r.number));
             let run = run.ok_or_else(|| {
-                Invalid::new(format!("line {}", k + 2), opening(line), "a finished run of the plan")
+                Error::new(format!("line {}", k + 2), opening(line), "a finished run of the plan")
             })?;
             record.runs.insert(run.number, run);
         }
@@ -191,13 +191,13 @@ impl Record {
     }
 
     /// Whether its runs are runs of that plan and shard, computed by this version.
-    pub fn check(&self, plan: &Plan, shard: Shard) -> Result<(), Invalid> {
+    pub fn check(&self, plan: &Plan, shard: Shard) -> Result<(), Error> {
         Header::new(plan.clone(), shard, false).check(&self.header)?;
         if self.header.shard == shard {
             Ok(())
         } else {
             let value = format!("shard {} and not {shard}", self.header.shard);
-            Err(Invalid::new("batch", value, "the same shard"))
+            Err(Error::new("batch", value, "the same shard"))
         }
     }
 }
@@ -208,10 +208,10 @@ pub fn write(header: &Header, runs: &BTreeMap<u64, Run>) -> String {
 }
 
 /// Puts the shards of one plan together again. Each comes with its name, for messages.
-pub fn merge(shards: Vec<(String, Record)>) -> Result<(Header, BTreeMap<u64, Run>), Invalid> {
+pub fn merge(shards: Vec<(String, Record)>) -> Result<(Header, BTreeMap<u64, Run>), Error> {
     let mut shards = shards.into_iter();
     let Some((first_name, first)) = shards.next() else {
-        return Err(Invalid::new("merge", "nothing", "the files of all shards of a batch"));
+        return Err(Error::new("merge", "nothing", "the files of all shards of a batch"));
     };
     let header = first.header.clone();
     let mut runs: BTreeMap<u64, (Run, String)> = BTreeMap::new();
@@ -220,13 +220,13 @@ pub fn merge(shards: Vec<(String, Record)>) -> Result<(Header, BTreeMap<u64, Run
         if header.summary != shard.header.summary {
             let allowed = format!("shards with one form of table, as in {first_name}");
             let form = if shard.header.summary { "with --summary" } else { "without --summary" };
-            return Err(Invalid::new("shard", form, allowed).within(&name));
+            return Err(Error::new("shard", form, allowed).within(&name));
         }
         for (number, run) in shard.runs {
             if let Some((_, other)) = runs.insert(number, (run, name.clone())) {
                 let value = format!("shard {} with run {}", shard.header.shard, number + 1);
                 let allowed = format!("shards that do not overlap: the run is in {other}, too");
-                return Err(Invalid::new("merge", value, allowed).within(&name));
+                return Err(Error::new("merge", value, allowed).within(&name));
             }
         }
     }
@@ -238,7 +238,7 @@ pub fn merge(shards: Vec<(String, Record)>) -> Result<(Header, BTreeMap<u64, Run
             missing + 1,
             missing % count + 1
         );
-        return Err(Invalid::new("merge", value, allowed));
+        return Err(Error::new("merge", value, allowed));
     }
     Ok((header, runs.into_iter().map(|(number, (run, _))| (number, run)).collect()))
 }

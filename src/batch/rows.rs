@@ -53,7 +53,7 @@ impl Plan {
                 Column::float(name, parameter.unit, parameter.meaning, values.collect())
             }
         };
-        self.vary().iter().map(super::Vary::parameter).enumerate().map(column).collect()
+        self.vary().iter().map(super::ParameterValues::parameter).enumerate().map(column).collect()
     }
 
     /// The name of a measured column: its own, where that is not a varied parameter's.

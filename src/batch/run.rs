@@ -1,7 +1,7 @@
 //! Computing runs: one by itself, or many on all cores.
 
 use super::plan::Plan;
-use crate::error::Invalid;
+use crate::error::Error;
 use crate::format::table::{Column, Values};
 use crate::measurement::probe::measure;
 use crate::simulation::Simulation;
@@ -23,7 +23,7 @@ pub struct Run {
 impl Plan {
     /// Computes one run. Before it and every so often `progress` gets the vehicle updates (vehicles times steps) done since it was
     /// asked last and says whether to go on; where not, there is no run. For a run that ends early the rest counts as done.
-    pub fn run(&self, number: u64, progress: &mut dyn FnMut(u64) -> bool) -> Result<Option<Run>, Invalid> {
+    pub fn run(&self, number: u64, progress: &mut dyn FnMut(u64) -> bool) -> Result<Option<Run>, Error> {
         if !progress(0) {
             return Ok(None);
         }
@@ -79,7 +79,7 @@ enum Stop<E> {
 /// Computes these runs of the plan, on as many threads as asked for (all cores by default; one at a time without the
 /// feature `parallel` and in a browser), and hands each to `finished` as soon as it is there, in any order, never two
 /// at once. `progress` is as in [`Plan::run`]. Returns whether it went on to the end.
-pub fn run_all<E: From<Invalid> + Send>(
+pub fn run_all<E: From<Error> + Send>(
     plan: &Plan,
     numbers: &[u64],
     threads: Option<usize>,

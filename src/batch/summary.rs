@@ -4,7 +4,7 @@
 use super::plan::Plan;
 use super::rows::OF_EVERY_RUN;
 use super::run::Run;
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::format::table::{Column, Table, Values};
 use crate::measurement::Measurement;
 use crate::numerics::statistics::{QUANTILES, Statistics, Student};
@@ -59,20 +59,20 @@ struct Rows {
 
 impl Plan {
     /// Whether its measurement can be summarised.
-    pub fn check_summary(&self) -> Result<(), Invalid> {
+    pub fn check_summary(&self) -> Result<(), Error> {
         if keys(self.measurement()).is_some() {
             return Ok(());
         }
         let allowed =
             "a table whose rows correspond from run to run, such as outcome, overview, lanes or drivers";
-        Err(Invalid::new("table of a summary", quoted(self.measurement().name()), allowed))
+        Err(Error::new("table of a summary", quoted(self.measurement().name()), allowed))
     }
 
     /// A row for each cell, for each place in the measurement (time, vehicle, …), and for each quantity.
     ///
     /// Over time, a quantity is that of the runs that have not ended yet; `collided` is the share of all runs that
     /// have collided by then.
-    pub fn summary(&self, runs: &BTreeMap<u64, Run>) -> Result<Table, Invalid> {
+    pub fn summary(&self, runs: &BTreeMap<u64, Run>) -> Result<Table, Error> {
         self.check_summary()?;
         let keys = keys(self.measurement()).unwrap_or_default();
         let columns = self.columns();

@@ -10,8 +10,8 @@ use super::{Failure, Subcommand, progress};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::batch::record::{self, Record};
-use ringroad::batch::{Header, Plan, Run, Shard, Vary, run_all};
-use ringroad::error::Invalid;
+use ringroad::batch::{Header, ParameterValues, Plan, Run, Shard, run_all};
+use ringroad::error::Error;
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
@@ -47,7 +47,7 @@ fn define() -> Command {
                 .value_name("NAME=VALUES")
                 .action(ArgAction::Append)
                 .help(
-                    "Vary a parameter: reaction-time=0:0.8:0.05 (from:to:by), lanes=1,2,4; may be repeated, \
+                    "ParameterValues a parameter: reaction-time=0:0.8:0.05 (from:to:by), lanes=1,2,4; may be repeated, \
                      for all combinations",
                 ),
         )
@@ -136,12 +136,12 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
 }
 
 /// Refuses options that would say twice what a file says.
-fn stands_alone(matches: &ArgMatches, option: &str, beside: &[&str]) -> Result<(), Invalid> {
+fn stands_alone(matches: &ArgMatches, option: &str, beside: &[&str]) -> Result<(), Error> {
     let given = |id: &&str| matches.value_source(id) == Some(ValueSource::CommandLine);
     match matches.ids().map(clap::Id::as_str).filter(given).find(|id| !beside.contains(id)) {
         Some(other) => {
             let allowed = format!("only {} beside --{option}", listed(&beside[1..]));
-            Err(Invalid::new(format!("--{}", other.replace('_', "-")), "an option", allowed))
+            Err(Error::new(format!("--{}", other.replace('_', "-")), "an option", allowed))
         }
         None => Ok(()),
     }
@@ -167,7 +167,7 @@ fn plan(matches: &ArgMatches) -> Result<Plan, Failure> {
     }
     let table = if matches.contains_id("every") { "overview" } else { "outcome" };
     let vary = matches.get_many::<String>("vary").into_iter().flatten();
-    let vary: Vec<Vary> = vary.map(|text| text.parse()).collect::<Result<_, _>>()?;
+    let vary: Vec<ParameterValues> = vary.map(|text| text.parse()).collect::<Result<_, _>>()?;
     let runs = matches.get_one("runs").copied().unwrap_or(1);
     let scenario = unchecked_scenario(matches)?;
     let plan = Plan::new(scenario.clone(), vary, runs, measurement(matches, table)?)?;
@@ -178,7 +178,7 @@ fn plan(matches: &ArgMatches) -> Result<Plan, Failure> {
     Ok(plan)
 }
 
-fn csv(plan: &Plan, runs: &BTreeMap<u64, Run>, summary: bool) -> Result<String, Invalid> {
+fn csv(plan: &Plan, runs: &BTreeMap<u64, Run>, summary: bool) -> Result<String, Error> {
     let table = if summary { plan.summary(runs)? } else { plan.table(runs) };
     Ok(plan.to_csv(&table))
 }
@@ -234,12 +234,9 @@ impl Part {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
                 let allowed = "one batch at a time, or another --out";
-                return Err(Invalid::new(
-                    "--out",
-                    format!("{name}, which another batch is writing,"),
-                    allowed,
-                )
-                .into());
+                return Err(
+                    Error::new("--out", format!("{name}, which another batch is writing,"), allowed).into()
+                );
             }
             // A file system without locks.
             Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
@@ -257,7 +254,7 @@ impl Part {
                 record.check(&header.plan, header.shard)?;
                 Ok(record)
             });
-            let advice = |mut e: Invalid| {
+            let advice = |mut e: Error| {
                 e.allowed += "; or remove the file to start afresh";
                 e.within(&name)
             };

@@ -16,7 +16,7 @@ mod stability;
 mod summary;
 
 use clap::ArgMatches;
-use ringroad::error::Invalid;
+use ringroad::error::Error;
 use std::fmt;
 use std::io;
 use std::process::ExitCode;
@@ -44,7 +44,7 @@ const SUBCOMMANDS: &[Subcommand] = &[
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// An input that is not allowed.
-    Invalid(Invalid),
+    Error(Error),
     /// A file that cannot be read or written.
     File {
         /// The file, as it was named.
@@ -56,16 +56,16 @@ pub(crate) enum Failure {
     ReaderGone,
 }
 
-impl From<Invalid> for Failure {
-    fn from(invalid: Invalid) -> Self {
-        Self::Invalid(invalid)
+impl From<Error> for Failure {
+    fn from(invalid: Error) -> Self {
+        Self::Error(invalid)
     }
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Invalid(invalid) => write!(f, "{invalid}"),
+            Self::Error(invalid) => write!(f, "{invalid}"),
             Self::File { name, error } => write!(f, "{name}: {error}"),
             Self::ReaderGone => write!(f, "the reader of the output has gone"),
         }

@@ -3,7 +3,7 @@
 
 use super::Failure;
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use ringroad::error::Invalid;
+use ringroad::error::Error;
 use ringroad::measurement::provenance::scenario_of_file;
 use ringroad::scenario::Scenario;
 use ringroad::scenario::parameters::PARAMETERS;
@@ -92,10 +92,10 @@ pub(crate) fn unchecked_scenario(matches: &ArgMatches) -> Result<Scenario, Failu
         scenario.start = start.parse()?;
     }
     for exception in matches.get_many::<String>("driver").into_iter().flatten() {
-        scenario.exceptions.push(exception.parse().map_err(|e: Invalid| e.within("--driver"))?);
+        scenario.exceptions.push(exception.parse().map_err(|e: Error| e.within("--driver"))?);
     }
     for action in matches.get_many::<String>("action").into_iter().flatten() {
-        scenario.actions.push(action.parse().map_err(|e: Invalid| e.within("--action"))?);
+        scenario.actions.push(action.parse().map_err(|e: Error| e.within("--action"))?);
     }
     Ok(scenario)
 }

@@ -5,7 +5,7 @@ use super::output::{self, Output};
 use super::summary::{Watched, summary};
 use super::{Failure, Subcommand, progress};
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use ringroad::error::Invalid;
+use ringroad::error::Error;
 use ringroad::format::table::Table;
 use ringroad::measurement::probe::measure;
 use ringroad::measurement::provenance::run_to_csv;
@@ -89,7 +89,7 @@ pub(crate) fn tabulate(
     if gib > MEMORY {
         let allowed =
             format!("at most {MEMORY} GiB: measure less often with --every, or fewer vehicles or bins");
-        return Err(Invalid::new("rows of the table", format!("{gib:.1} GiB"), allowed).into());
+        return Err(Error::new("rows of the table", format!("{gib:.1} GiB"), allowed).into());
     }
     let mut probes = [measurement.probe(scenario)?];
     let mut simulation = Simulation::new(scenario)?;

@@ -4,14 +4,14 @@ use super::options::{scenario, scenario_options};
 use super::output::{self, Output};
 use super::{Failure, Subcommand};
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use ringroad::error::Invalid;
+use ringroad::error::Error;
 use ringroad::measurement::provenance::theory_to_csv;
 use ringroad::scenario::Scenario;
-use ringroad::stability::discrete_roots::Factor;
+use ringroad::stability::discrete_roots::DiscreteRoot;
 use ringroad::stability::homogeneous::Time;
 use ringroad::stability::report::{ModeRoot, Report, leading_factors, leading_roots};
 use ringroad::stability::stability_diagram::{Sweep, sweep};
-use ringroad::stability::stabilizing_drivers::{Calming, calm_with, parse_changes};
+use ringroad::stability::stabilizing_drivers::{StabilizingDrivers, parse_changes, stabilizing_drivers};
 use ringroad::stability::stable_ranges::{
     first_jammed, most_vehicles, stable_sensitivities, stable_vehicles,
 };
@@ -61,18 +61,18 @@ struct Answer {
     /// Sensitivities of equal drivers, otherwise the default one, as many as in the lane of the report; 1/s.
     stable_sensitivities_per_s: Vec<(f64, f64)>,
     #[serde(flatten)]
-    calming: Option<Calming>,
+    calming: Option<StabilizingDrivers>,
     #[serde(skip_serializing_if = "Option::is_none")]
     roots: Option<Vec<ModeRoot>>,
     /// The same of the simulation, with the growth factors z of a step.
     #[serde(skip_serializing_if = "Option::is_none")]
-    roots_discrete: Option<Vec<Factor>>,
+    roots_discrete: Option<Vec<DiscreteRoot>>,
 }
 
 fn answer(scenario: &Scenario, calm: Option<&String>, roots: Option<usize>) -> Result<Answer, Failure> {
     let report = Report::of(scenario);
     let calming = match calm {
-        Some(text) => Some(calm_with(scenario, &parse_changes(text)?)?),
+        Some(text) => Some(stabilizing_drivers(scenario, &parse_changes(text)?)?),
         None => None,
     };
     let driver = &scenario.driver;
@@ -99,18 +99,20 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let scenario = scenario(matches)?;
     let output = Output::new(matches)?;
     if let Some(text) = matches.get_one::<String>("sweep") {
-        let asked: Sweep = text.parse().map_err(|e: Invalid| e.within("--sweep"))?;
+        let asked: Sweep = text.parse().map_err(|e: Error| e.within("--sweep"))?;
         let table = sweep(&scenario, &asked)?;
         output.write(&theory_to_csv(&table, &scenario, &format!("stability --sweep {text}")))?;
         return Ok(ExitCode::SUCCESS);
     }
-    let roots =
-        match matches.get_one::<String>("roots") {
-            None => None,
-            Some(text) => Some(text.parse().ok().filter(|k| (1..=100).contains(k)).ok_or_else(|| {
-                Invalid::new("--roots", format!("“{text}”"), "a whole number from 1 to 100")
-            })?),
-        };
+    let roots = match matches.get_one::<String>("roots") {
+        None => None,
+        Some(text) => Some(
+            text.parse()
+                .ok()
+                .filter(|k| (1..=100).contains(k))
+                .ok_or_else(|| Error::new("--roots", format!("“{text}”"), "a whole number from 1 to 100"))?,
+        ),
+    };
     let answer = answer(&scenario, matches.get_one("calm-with"), roots)?;
     let text = if matches.get_flag("json") {
         serde_json::to_string_pretty(&answer).expect("plain data") + "\n"

@@ -5,7 +5,7 @@
 //! the standard library's. So here numbers are read and written by the standard library, as everywhere else in a
 //! file: with the fewest digits that read back to the same bits.
 
-use crate::error::Invalid;
+use crate::error::Error;
 use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
 use std::fmt;
@@ -53,11 +53,11 @@ impl Object {
     }
 
     /// Reads a text that must be an object; a refusal names `what` it is.
-    pub fn read(what: &'static str, text: &str) -> Result<Self, Invalid> {
+    pub fn read(what: &'static str, text: &str) -> Result<Self, Error> {
         match text.parse() {
             Ok(Json::Object(object)) => Ok(object),
-            Ok(other) => Err(Invalid::new(what, other, "a JSON object")),
-            Err(e) => Err(Invalid::new(what, format!("broken JSON ({e})"), "a JSON object")),
+            Ok(other) => Err(Error::new(what, other, "a JSON object")),
+            Err(e) => Err(Error::new(what, format!("broken JSON ({e})"), "a JSON object")),
         }
     }
 

@@ -3,19 +3,19 @@
 //!
 //! Everything here is bounded in memory, however long the run. Tables for files come from the probes.
 
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::format::table::Table;
-use crate::measurement::modal_growth::{Growth as Modal, Linear};
+use crate::measurement::modal_growth::{Linear, ModalGrowth};
 use crate::measurement::probe::Probe;
-use crate::scenario::action::{Action, Effect, Who};
+use crate::scenario::action::{Action, Effect, VehicleSelector};
 use crate::scenario::driver::{Driver, Equilibrium, equilibrium};
 use crate::scenario::link;
 use crate::scenario::parameters::Parameter;
 use crate::scenario::{Scenario, assign};
 use crate::simulation::Simulation;
 use crate::stability::report::{Roots, roots_of_lane};
-use crate::stability::stability_diagram::Plane;
-use crate::stability::summary::{self, Verdict, verdict};
+use crate::stability::stability_diagram::StabilityDiagram;
+use crate::stability::summary::{self, StabilitySummary, verdict};
 use std::collections::VecDeque;
 
 /// Seconds between two columns of the map, rounded to whole steps.
@@ -42,7 +42,8 @@ const LINEAR: Linear = Linear { smallest: 1e-8, nonlinearity: 0.01 };
 pub fn opening() -> Scenario {
     let mut scenario = link::base();
     scenario.driver.reaction_time = 0.75;
-    scenario.actions = vec![Action { at: 0.0, who: Who::Vehicle(1), effects: vec![Effect::Nudge(1.0)] }];
+    scenario.actions =
+        vec![Action { at: 0.0, who: VehicleSelector::Vehicle(1), effects: vec![Effect::Nudge(1.0)] }];
     scenario
 }
 
@@ -59,7 +60,7 @@ pub struct Column {
 
 /// Growth of one wave, measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Growth {
+pub struct MeasuredGrowth {
     /// Slope of ln|amplitude|, 1/s.
     pub rate: f64,
     /// Of the slope, 1/s.
@@ -87,7 +88,7 @@ pub struct Live {
     changes: u64,
     balance: Vec<usize>,
     equilibrium: Equilibrium,
-    verdict: Verdict,
+    verdict: StabilitySummary,
     /// Lanes have changed since theory was asked: with several lanes it is asked only when somebody wants to know.
     stale: bool,
     /// Columns made so far; the last [`COLUMNS`] are kept.
@@ -102,14 +103,14 @@ pub struct Live {
     /// Whether waves are too large for linear theory now.
     large: bool,
     /// Growth of every mode of the verdict's lane since the last change; none until theory was asked.
-    modal: Option<Modal>,
+    modal: Option<ModalGrowth>,
     /// The step from which on it is looked at.
     modal_from: u64,
 }
 
 impl Live {
     /// The run of a scenario, at t = 0.
-    pub fn new(scenario: &Scenario) -> Result<Self, Invalid> {
+    pub fn new(scenario: &Scenario) -> Result<Self, Error> {
         let simulation = Simulation::new(scenario)?;
         let n = scenario.vehicles;
         let watched = if n < 5 { (0..n).collect() } else { (0..5).map(|k| k * n / 5).collect() };
@@ -121,7 +122,7 @@ impl Live {
             changes: 0,
             balance: Vec::new(),
             equilibrium: Equilibrium { speed: 0.0, density: 0.0, flow: 0.0 },
-            verdict: Verdict::default(),
+            verdict: StabilitySummary::default(),
             stale: true,
             made: 0,
             columns: VecDeque::new(),
@@ -144,7 +145,7 @@ impl Live {
         &self.simulation
     }
     /// What theory says now.
-    pub fn verdict(&mut self) -> &Verdict {
+    pub fn verdict(&mut self) -> &StabilitySummary {
         if std::mem::take(&mut self.stale) {
             let scenario = self.simulation.scenario();
             let lanes: Vec<Vec<Driver>> = (self.lanes().iter())
@@ -219,7 +220,7 @@ impl Live {
     }
 
     /// Does something now. Of several settings of one parameter at one instant the last stays.
-    pub fn act(&mut self, action: Action) -> Result<(), Invalid> {
+    pub fn act(&mut self, action: Action) -> Result<(), Error> {
         self.simulation.act(action)?;
         self.simulation.forget_replaced();
         self.plan();
@@ -228,7 +229,7 @@ impl Live {
     }
 
     /// Moves the end of the run, s.
-    pub fn set_until(&mut self, until: f64) -> Result<(), Invalid> {
+    pub fn set_until(&mut self, until: f64) -> Result<(), Error> {
         self.simulation.set_until(until)
     }
 
@@ -262,11 +263,11 @@ impl Live {
         if self.stale {
             return;
         }
-        let Verdict { lane, mode, .. } = self.verdict;
+        let StabilitySummary { lane, mode, .. } = self.verdict;
         let most = self.simulation.vehicles_per_lane()[lane - 1] / 2;
         let modes = (2 * mode.unwrap_or(1)).clamp(10, 40).min(most);
         let (every, from) = (self.every, self.modal_from);
-        let modal = self.modal.get_or_insert_with(|| Modal::new(every, modes, lane - 1, from, LINEAR));
+        let modal = self.modal.get_or_insert_with(|| ModalGrowth::new(every, modes, lane - 1, from, LINEAR));
         if modal.rows() < MODAL_ROWS {
             modal.observe(&self.simulation);
         }
@@ -429,7 +430,7 @@ impl Live {
 
     /// Growth of the wave that theory calls the fastest, over the last minute in which all waves were small, or
     /// since the last change; none before ten seconds of that have been seen.
-    pub fn growth(&self) -> Option<Growth> {
+    pub fn growth(&self) -> Option<MeasuredGrowth> {
         let n = self.amplitudes.len() as f64;
         let window = self.amplitudes.back()?.0 - self.amplitudes.front()?.0;
         if window < 10.0 || n < 5.0 {
@@ -445,7 +446,7 @@ impl Live {
         let (first, last) = (self.amplitudes.front()?.0, self.amplitudes.back()?.0);
         let weight = |a: &(f64, f64, f64)| (a.0 - first) * (last - a.0);
         let bounds: f64 = self.amplitudes.iter().map(|a| weight(a) * a.2).sum();
-        Some(Growth {
+        Some(MeasuredGrowth {
             rate,
             standard_error: libm::sqrt(squares / (n - 2.0) / tt),
             nonlinear_bound: bounds / self.amplitudes.iter().map(weight).sum::<f64>(),
@@ -469,7 +470,7 @@ impl Live {
         let mut scenario = self.simulation.scenario().clone();
         let now = self.simulation.step_index();
         let set_for_all: Vec<_> = (scenario.actions_in_time().into_iter())
-            .filter(|&(step, k)| step <= now && scenario.actions[k].who == Who::All)
+            .filter(|&(step, k)| step <= now && scenario.actions[k].who == VehicleSelector::All)
             .flat_map(|(_, k)| scenario.actions[k].effects.clone())
             .filter_map(|effect| if let Effect::Set(p, value) = effect { Some((p, value)) } else { None })
             .collect();
@@ -482,14 +483,14 @@ impl Live {
         scenario.exceptions.retain(|e| !e.values.is_empty());
         let is_set = |e: &Effect| matches!(e, Effect::Set(..));
         let steps = |a: &Action| (a.at / scenario.time_step).round() as u64;
-        let is_settled = |a: &Action| a.who == Who::All && a.effects.iter().all(is_set);
+        let is_settled = |a: &Action| a.who == VehicleSelector::All && a.effects.iter().all(is_set);
         scenario.actions.retain(|a| steps(a) > now || steps(a) == 0 && !is_settled(a));
         scenario
     }
 
     /// The scenario that a parameter (or `start`) set to `text` leads to, if it must start again; `None` where it
     /// is set on the way.
-    pub fn with(&self, name: &str, text: &str) -> Result<Scenario, Invalid> {
+    pub fn with(&self, name: &str, text: &str) -> Result<Scenario, Error> {
         let mut scenario = self.settled();
         if name == "start" {
             scenario.start = text.parse()?;
@@ -508,7 +509,7 @@ impl Live {
     /// Sets a parameter. A driver's holds for all drivers from now on; any other, and every one at t = 0 or after
     /// a collision, starts the run again with what was set.
     /// Returns whether it started again.
-    pub fn set(&mut self, name: &str, text: &str) -> Result<bool, Invalid> {
+    pub fn set(&mut self, name: &str, text: &str) -> Result<bool, Error> {
         let running = self.simulation.step_index() > 0 && self.simulation.collision().is_none();
         if name == "until" {
             let parameter = named(name)?;
@@ -517,7 +518,8 @@ impl Live {
         if running && name != "start" && named(name)?.is_of_driver() {
             let parameter = named(name)?;
             let value = parameter.parse(text)?;
-            let action = Action { at: 0.0, who: Who::All, effects: vec![Effect::Set(parameter, value)] };
+            let action =
+                Action { at: 0.0, who: VehicleSelector::All, effects: vec![Effect::Set(parameter, value)] };
             return self.act(action).map(|()| false);
         }
         *self = Self::new(&self.with(name, text)?)?;
@@ -525,7 +527,7 @@ impl Live {
     }
 
     /// What theory would say after [`Self::set`].
-    pub fn preview(&self, name: &str, text: &str) -> Result<Verdict, Invalid> {
+    pub fn preview(&self, name: &str, text: &str) -> Result<StabilitySummary, Error> {
         let scenario = self.with(name, text)?;
         let drivers = scenario.drivers();
         let mut rest = drivers.as_slice();
@@ -546,7 +548,11 @@ impl Live {
 
     /// What theory would say at that reaction time with so many vehicles on all lanes, both as typed; without a number,
     /// with the vehicles in the lanes where they are now.
-    pub fn preview_point(&self, vehicles: Option<&str>, reaction_time: &str) -> Result<Verdict, Invalid> {
+    pub fn preview_point(
+        &self,
+        vehicles: Option<&str>,
+        reaction_time: &str,
+    ) -> Result<StabilitySummary, Error> {
         match vehicles {
             None => self.preview("reaction_time", reaction_time),
             Some(n) => Self::new(&self.with("vehicles", n)?)?.preview("reaction_time", reaction_time),
@@ -555,16 +561,16 @@ impl Live {
 
     /// The stability plane of the lane that the verdict speaks of: of its drivers where they are alike, else of
     /// those without an exception. Its driver has the reaction time where the lane stands in the plane.
-    pub fn plane(&mut self) -> Plane {
-        let &Verdict { alike, lane, .. } = self.verdict();
+    pub fn plane(&mut self) -> StabilityDiagram {
+        let &StabilitySummary { alike, lane, .. } = self.verdict();
         let settled = self.settled();
         let first = (0..self.simulation.vehicles()).find(|&j| alike && self.simulation.lane(j) + 1 == lane);
         let driver = first.map_or(settled.driver, |j| *self.simulation.driver(j));
-        Plane { driver, ..Plane::of(&settled) }
+        StabilityDiagram { driver, ..StabilityDiagram::of(&settled) }
     }
 
     /// The same scenario from its beginning, with all its actions, or with those at t = 0 only.
-    pub fn restarted(&self, keep_actions: bool) -> Result<Self, Invalid> {
+    pub fn restarted(&self, keep_actions: bool) -> Result<Self, Error> {
         let mut scenario = self.simulation.scenario().clone();
         if !keep_actions {
             let steps: Vec<_> = scenario.actions.iter().map(|a| scenario.steps(a.at)).collect();
@@ -578,22 +584,22 @@ impl Live {
     }
 
     /// The same scenario from its beginning without the action at that place of the list.
-    pub fn without(&self, index: usize) -> Result<Self, Invalid> {
+    pub fn without(&self, index: usize) -> Result<Self, Error> {
         let mut scenario = self.simulation.scenario().clone();
         if index >= scenario.actions.len() {
             let allowed = format!("a place from 1 to {}", scenario.actions.len());
-            return Err(Invalid::new("actions", index + 1, allowed));
+            return Err(Error::new("actions", index + 1, allowed));
         }
         scenario.actions.remove(index);
         Self::new(&scenario)
     }
 }
 
-fn named(name: &str) -> Result<&'static Parameter, Invalid> {
+fn named(name: &str) -> Result<&'static Parameter, Error> {
     Parameter::named(name).ok_or_else(|| {
         let names: Vec<_> =
             crate::scenario::parameters::PARAMETERS.iter().map(Parameter::hyphenated).collect();
-        Invalid::new("parameter", quoted(name), names.join(", "))
+        Error::new("parameter", quoted(name), names.join(", "))
     })
 }
 

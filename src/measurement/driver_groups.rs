@@ -55,7 +55,7 @@ fn mean_speed(distance: f64, time: f64) -> f64 {
 
 /// The probe of the table `drivers`: a row for each group and time.
 #[derive(Clone, Debug)]
-pub struct Drivers {
+pub struct DriverGroups {
     schedule: Schedule,
     groups: Groups,
     times: Vec<f64>,
@@ -64,7 +64,7 @@ pub struct Drivers {
     distances: Vec<f64>,
 }
 
-impl Drivers {
+impl DriverGroups {
     /// Rows every so many steps.
     pub fn new(every: u64) -> Self {
         let schedule = Schedule::with_collision(every);
@@ -72,7 +72,7 @@ impl Drivers {
     }
 }
 
-impl Probe for Drivers {
+impl Probe for DriverGroups {
     fn observe(&mut self, simulation: &Simulation) {
         let due = self.schedule.due(simulation);
         if due == Due::Nothing {

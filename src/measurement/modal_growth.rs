@@ -25,7 +25,7 @@ use super::spectrum::Spectrum;
 use crate::format::table::{Column, Table};
 use crate::numerics::least_squares;
 use crate::simulation::Simulation;
-use crate::stability::driver_classes::Ring;
+use crate::stability::driver_classes::DriverClasses;
 use crate::stability::homogeneous::Time;
 use std::cell::OnceCell;
 use std::f64::consts::PI;
@@ -33,7 +33,7 @@ use std::ops::Range;
 
 /// The probe of the table `growth`.
 #[derive(Clone, Debug)]
-pub struct Growth {
+pub struct ModalGrowth {
     schedule: Schedule,
     spectrum: Spectrum,
     lane: usize,
@@ -52,7 +52,7 @@ pub struct Growth {
 /// A lane as linear theory sees it; the growth rates (1/s) of its modes are computed when they are first asked for.
 #[derive(Clone, Debug)]
 struct Theory {
-    ring: Ring,
+    ring: DriverClasses,
     rates: OnceCell<Vec<f64>>,
 }
 
@@ -89,7 +89,7 @@ fn acted(simulation: &Simulation, since: f64) -> bool {
     scenario.actions.iter().any(|action| steps.contains(&scenario.steps(action.at)))
 }
 
-impl Growth {
+impl ModalGrowth {
     /// Modes 1 to `modes` of a lane (from 0), amplitudes every so many steps from a step on; `linear` says which of
     /// them are fitted.
     pub fn new(every: u64, modes: usize, lane: usize, from: u64, linear: Linear) -> Self {
@@ -144,7 +144,7 @@ impl Growth {
             return f64::NAN;
         };
         let ring = &self.theories[self.lanes[last]].ring;
-        let slope = ring.kinds().last().map_or(f64::NAN, |kind| kind.slope);
+        let slope = ring.classes().last().map_or(f64::NAN, |kind| kind.slope);
         let linear = 2.0 * slope * libm::sin(PI * (mode + 1) as f64 / ring.vehicles() as f64);
         let (mut sum, mut weights) = (0.0, 0.0);
         for row in window.clone() {
@@ -167,7 +167,7 @@ impl Growth {
     }
 }
 
-impl Probe for Growth {
+impl Probe for ModalGrowth {
     fn observe(&mut self, simulation: &Simulation) {
         if simulation.step_index() < self.from {
             return;

@@ -4,7 +4,7 @@
 //! A probe's rows depend on the states that it saw and on nothing else; so a table taken in mid-run is the one
 //! that a run with `until` at that time gives. (An outcome alone waits for the end.)
 
-use crate::error::Invalid;
+use crate::error::Error;
 use crate::format::table::Table;
 use crate::scenario::action::Action;
 use crate::simulation::Simulation;
@@ -44,11 +44,7 @@ pub fn measure(
 
 /// An action made by hand at the present time, seen by the probes as a replay will see it: a row at a time is the
 /// state after the actions of that time.
-pub fn act(
-    simulation: &mut Simulation,
-    probes: &mut [Box<dyn Probe>],
-    action: Action,
-) -> Result<(), Invalid> {
+pub fn act(simulation: &mut Simulation, probes: &mut [Box<dyn Probe>], action: Action) -> Result<(), Error> {
     simulation.act(action)?;
     observe(simulation, probes);
     Ok(())

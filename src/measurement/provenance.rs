@@ -4,7 +4,7 @@
 //! run, or the plan of a batch.
 
 use super::settings::Measurement;
-use crate::error::{Invalid, opening};
+use crate::error::{Error, opening};
 use crate::format::table::Table;
 use crate::scenario::Scenario;
 
@@ -52,20 +52,20 @@ pub struct Provenance {
 
 impl Provenance {
     /// The version that wrote a file, for a reader that may not understand the rest.
-    pub fn version_of(text: &str) -> Result<&str, Invalid> {
+    pub fn version_of(text: &str) -> Result<&str, Error> {
         header_line(text, PROGRAM).map(str::trim)
     }
 
     /// Reads the header of a file that [`run_to_csv`] wrote.
-    pub fn from_csv(text: &str) -> Result<Self, Invalid> {
+    pub fn from_csv(text: &str) -> Result<Self, Error> {
         let version = Self::version_of(text)?.to_owned();
         if header_line(text, PLAN).is_ok() {
             let allowed =
                 "the table of one run; a batch is repeated by `ringroad batch --plan` with this file";
-            return Err(Invalid::new("file", "the table of a batch", allowed));
+            return Err(Error::new("file", "the table of a batch", allowed));
         }
         if header_line(text, COMPUTED).is_ok() {
-            return Err(Invalid::new("file", "a table that theory computed", "the table of one run"));
+            return Err(Error::new("file", "a table that theory computed", "the table of one run"));
         }
         Ok(Self {
             version,
@@ -78,20 +78,20 @@ impl Provenance {
 }
 
 /// The scenario in the text of a file, JSON or a table, and the version that wrote the table.
-pub fn scenario_of_file(text: &str) -> Result<(Scenario, Option<String>), Invalid> {
+pub fn scenario_of_file(text: &str) -> Result<(Scenario, Option<String>), Error> {
     if text.starts_with('#') {
         Provenance::from_csv(text).map(|made_by| (made_by.scenario, Some(made_by.version)))
     } else if text.trim_start().starts_with('{') {
         Scenario::from_json(text).map(|scenario| (scenario, None))
     } else {
-        Err(Invalid::new("file", opening(text), "a scenario in JSON or a table of Ringroad; it is neither"))
+        Err(Error::new("file", opening(text), "a scenario in JSON or a table of Ringroad; it is neither"))
     }
 }
 
 /// The rest of the header line that begins with `prefix`.
-pub(crate) fn header_line<'a>(text: &'a str, prefix: &str) -> Result<&'a str, Invalid> {
+pub(crate) fn header_line<'a>(text: &'a str, prefix: &str) -> Result<&'a str, Error> {
     text.lines().take_while(|l| l.starts_with('#')).find_map(|l| l.strip_prefix(prefix)).ok_or_else(|| {
-        Invalid::new("CSV header", opening(text), format!("a file of Ringroad, with a line “{prefix}…”"))
+        Error::new("CSV header", opening(text), format!("a file of Ringroad, with a line “{prefix}…”"))
     })
 }
 

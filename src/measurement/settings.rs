@@ -6,12 +6,12 @@
 
 use super::{
     cyclic_growth::CyclicGrowth,
-    driver_groups::{Drivers, Vehicles},
+    driver_groups::{DriverGroups, Vehicles},
     equilibrium::Equilibria,
     events::Events,
     flow::Flow,
     lanes::Lanes,
-    modal_growth::{Growth, Linear},
+    modal_growth::{Linear, ModalGrowth},
     modes::Modes,
     overview::{Outcome, Overview},
     probe::Probe,
@@ -19,7 +19,7 @@ use super::{
     speeds::Speeds,
     trajectories::Trajectories,
 };
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::format::json::{Json, Object};
 use crate::scenario::Scenario;
 use serde::Serialize;
@@ -184,11 +184,11 @@ impl Setting {
         format!("{kind} from {} to {}{space}{}", self.min, self.max, self.unit)
     }
 
-    fn refuse(&self, value: impl std::fmt::Display) -> Invalid {
-        Invalid::new(self.name, value, self.allowed())
+    fn refuse(&self, value: impl std::fmt::Display) -> Error {
+        Error::new(self.name, value, self.allowed())
     }
 
-    fn check(&self, value: &Json) -> Result<(), Invalid> {
+    fn check(&self, value: &Json) -> Result<(), Error> {
         let one = |value: &Json| {
             let inside = |x: f64| x >= self.min && x <= self.max && (!self.whole || x == x.trunc());
             if value.as_number().is_some_and(inside) { Ok(()) } else { Err(self.refuse(value)) }
@@ -201,7 +201,7 @@ impl Setting {
     }
 
     /// Reads what a person wrote; a list has commas between its numbers.
-    fn parse(&self, text: &str) -> Result<Json, Invalid> {
+    fn parse(&self, text: &str) -> Result<Json, Error> {
         let one = |text: &str| {
             let number: f64 = text.trim().parse().map_err(|_| self.refuse(quoted(text)))?;
             if number.is_finite() { Ok(Json::from(number)) } else { Err(self.refuse(number)) }
@@ -272,11 +272,11 @@ impl Measurement {
     }
 
     /// The measurement of that name with its default settings.
-    pub fn named(name: &str) -> Result<Self, Invalid> {
+    pub fn named(name: &str) -> Result<Self, Error> {
         let mut all = Self::all();
         let Some(found) = all.iter_mut().find(|m| m.name() == name) else {
             let names: Vec<_> = all.iter().map(Self::name).collect();
-            return Err(Invalid::new("table", quoted(name), names.join(", ")));
+            return Err(Error::new("table", quoted(name), names.join(", ")));
         };
         Ok(found.clone())
     }
@@ -317,14 +317,14 @@ impl Measurement {
     pub fn with_options<'a>(
         self,
         options: impl IntoIterator<Item = (&'a str, &'a str)>,
-    ) -> Result<Self, Invalid> {
+    ) -> Result<Self, Error> {
         let mut object = self.to_object();
         let settings = self.settings();
         for (option, text) in options {
             let setting = settings.iter().find(|s| s.option == option).ok_or_else(|| {
                 let names: Vec<_> = settings.iter().map(|s| format!("--{}", s.option)).collect();
                 let names = if names.is_empty() { "no setting".to_owned() } else { names.join(", ") };
-                Invalid::new(format!("table {}", self.name()), format!("--{option}"), names)
+                Error::new(format!("table {}", self.name()), format!("--{option}"), names)
             })?;
             object.insert(setting.name, setting.parse(text)?);
         }
@@ -381,19 +381,19 @@ impl Measurement {
         object
     }
 
-    fn from_object(given: &Object) -> Result<Self, Invalid> {
+    fn from_object(given: &Object) -> Result<Self, Error> {
         let mut table = match given.get("table") {
             Some(Json::Text(name)) => Self::named(name)?,
             other => {
                 let value = other.map_or_else(|| "nothing".to_owned(), Json::to_string);
-                return Err(Invalid::new("table", value, "the name of a table, a text"));
+                return Err(Error::new("table", value, "the name of a table, a text"));
             }
         };
         let (known, of) = (table.to_object(), table.name());
         for (name, value) in given.iter().filter(|(name, _)| *name != "table") {
             let Some(default) = known.get(name) else {
                 let names: Vec<_> = known.iter().map(|(name, _)| name).collect();
-                return Err(Invalid::new("field", quoted(name), names.join(", ")).within(of));
+                return Err(Error::new("field", quoted(name), names.join(", ")).within(of));
             };
             let follows = *default == Json::Null && *value == Json::Null;
             if !follows && let Some(setting) = SETTINGS.iter().find(|s| s.name == name) {
@@ -414,7 +414,7 @@ impl Measurement {
     }
 
     /// Reads JSON; what depends on a scenario is for [`Measurement::validate`].
-    pub fn from_json(text: &str) -> Result<Self, Invalid> {
+    pub fn from_json(text: &str) -> Result<Self, Error> {
         Object::read("measurement", text).and_then(|object| Self::from_object(&object))
     }
 
@@ -448,14 +448,14 @@ impl Measurement {
     }
 
     /// Whether it makes sense for runs of the scenario.
-    pub fn validate(&self, scenario: &Scenario) -> Result<(), Invalid> {
+    pub fn validate(&self, scenario: &Scenario) -> Result<(), Error> {
         let resolved = self.resolved(scenario);
         // Also catches what no JSON can hold: NaN and infinities become null.
         Self::from_object(&resolved.to_object())?;
         for (name, value) in resolved.to_object().iter() {
             let number = value.as_number().unwrap_or(0.0);
             let refuse =
-                |allowed: String| Err(Invalid::new(name.to_owned(), value, allowed).within(self.name()));
+                |allowed: String| Err(Error::new(name.to_owned(), value, allowed).within(self.name()));
             let most = |limit: usize, what: &str| {
                 if number > limit as f64 { refuse(format!("at most {limit}, {what}")) } else { Ok(()) }
             };
@@ -467,7 +467,7 @@ impl Measurement {
                 "vehicles" => {
                     let numbers = value.as_list().into_iter().flatten();
                     match numbers.filter_map(Json::as_number).find(|&n| n > scenario.vehicles as f64) {
-                        Some(n) => Err(Invalid::new(
+                        Some(n) => Err(Error::new(
                             name.to_owned(),
                             n,
                             format!("at most {}, the number of vehicles", scenario.vehicles),
@@ -494,13 +494,13 @@ impl Measurement {
         {
             let most = COUNTS * every / bins as f64;
             let allowed = format!("at most {most} s with rows every {every} s at {bins} places");
-            return Err(Invalid::new("window", window, allowed).within(self.name()));
+            return Err(Error::new("window", window, allowed).within(self.name()));
         }
         Ok(())
     }
 
     /// The probe that makes it, for runs of the scenario.
-    pub fn probe(&self, scenario: &Scenario) -> Result<Box<dyn Probe>, Invalid> {
+    pub fn probe(&self, scenario: &Scenario) -> Result<Box<dyn Probe>, Error> {
         self.validate(scenario)?;
         let steps = |seconds: f64| scenario.steps(seconds);
         Ok(match self.resolved(scenario) {
@@ -509,7 +509,7 @@ impl Measurement {
             }
             Self::CyclicGrowth { vehicle, periods } => Box::new(CyclicGrowth::new(vehicle - 1, periods)),
             Self::Equilibrium { every } => Box::new(Equilibria::new(steps(every))),
-            Self::Drivers { every } => Box::new(Drivers::new(steps(every))),
+            Self::Drivers { every } => Box::new(DriverGroups::new(steps(every))),
             Self::Vehicles { every } => Box::new(Vehicles::new(steps(every))),
             Self::Overview { every } => Box::new(Overview::new(scenario, steps(every))),
             Self::Outcome {} => Box::new(Outcome::new(scenario)),
@@ -519,7 +519,7 @@ impl Measurement {
 
     /// The same for the tables that the page exports; any other is refused. The page's WebAssembly module carries
     /// these probes only.
-    pub fn probe_of_page(&self, scenario: &Scenario) -> Result<Box<dyn Probe>, Invalid> {
+    pub fn probe_of_page(&self, scenario: &Scenario) -> Result<Box<dyn Probe>, Error> {
         self.validate(scenario)?;
         let steps = |seconds: f64| scenario.steps(seconds);
         Ok(match self.resolved(scenario) {
@@ -536,7 +536,7 @@ impl Measurement {
             Self::Flow { every, window, at } => {
                 Box::new(Flow::at(scenario, steps(every), steps(window), at.unwrap_or_default()))
             }
-            Self::Growth { every, modes, lane, from, smallest, nonlinearity } => Box::new(Growth::new(
+            Self::Growth { every, modes, lane, from, smallest, nonlinearity } => Box::new(ModalGrowth::new(
                 steps(every),
                 modes.unwrap_or_default(),
                 lane - 1,
@@ -548,7 +548,7 @@ impl Measurement {
             _ => {
                 let allowed = "trajectories, speeds, speed-map, flow-map, flow, growth, events or lanes; \
                                the command makes every table";
-                return Err(Invalid::new("table", quoted(self.name()), allowed));
+                return Err(Error::new("table", quoted(self.name()), allowed));
             }
         })
     }

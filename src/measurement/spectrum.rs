@@ -2,7 +2,7 @@
 
 use crate::scenario::driver::{Driver, equilibrium};
 use crate::simulation::Simulation;
-use crate::stability::driver_classes::{Ring, slopes};
+use crate::stability::driver_classes::{DriverClasses, slopes};
 
 /// Amplitudes of the modes of δ_k = h_k − h_k(v∞), where k counts the vehicles of the lane downstream:
 /// `A_q = (2/n)·|Σ_k δ_k·e^{2πi·qk/n}|`, half of that for q = n/2; so a wave of ±1 m has amplitude 1 m.
@@ -80,10 +80,10 @@ impl Spectrum {
     }
 
     /// The lane read last as linear theory sees it, with the delays in force now.
-    pub(super) fn ring(&self, simulation: &Simulation) -> Ring {
+    pub(super) fn ring(&self, simulation: &Simulation) -> DriverClasses {
         let dt = simulation.scenario().time_step;
         let delay = |&j: &usize| simulation.delay_steps(j) as f64 * dt;
-        Ring::new(self.slopes.iter().copied().zip(self.order.iter().map(delay)))
+        DriverClasses::new(self.slopes.iter().copied().zip(self.order.iter().map(delay)))
     }
 
     fn deviations<'a>(&'a self, simulation: &'a Simulation) -> impl Iterator<Item = f64> + 'a {

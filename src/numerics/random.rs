@@ -15,7 +15,7 @@ pub enum Stream {
     /// Lane changing.
     LaneChanging,
     /// The vehicles of a share in the exception at this place in the list.
-    Exception(usize),
+    DriverOverride(usize),
     /// The vehicles of a share in the action at this place in the list.
     Action(usize),
 }
@@ -25,7 +25,7 @@ impl Stream {
         match self {
             Self::Start => 0,
             Self::LaneChanging => 1,
-            Self::Exception(k) => (1 << 40) + k as u64,
+            Self::DriverOverride(k) => (1 << 40) + k as u64,
             Self::Action(k) => (2 << 40) + k as u64,
         }
     }
@@ -91,8 +91,8 @@ mod tests {
         let all = [
             draw(1, Stream::Start),
             draw(1, Stream::LaneChanging),
-            draw(1, Stream::Exception(0)),
-            draw(1, Stream::Exception(1)),
+            draw(1, Stream::DriverOverride(0)),
+            draw(1, Stream::DriverOverride(1)),
             draw(1, Stream::Action(0)),
             draw(2, Stream::Start),
         ];
@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn a_choice_has_the_size_asked_for() {
         for count in 0..=20 {
-            let chosen = Generator::new(count, Stream::Exception(0)).choose(count as usize, 20);
+            let chosen = Generator::new(count, Stream::DriverOverride(0)).choose(count as usize, 20);
             assert_eq!(chosen.len(), count as usize);
             assert!(chosen.windows(2).all(|w| w[0] < w[1]) && chosen.iter().all(|&k| k < 20));
         }

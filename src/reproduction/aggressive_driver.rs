@@ -1,6 +1,6 @@
 //! One aggressive driver among fifty: what it gains, and what it does to the others.
 
-use super::{Figure, FigureTable, Outcome, Piece, Size, Spread, indicator, observed};
+use super::{Figure, FigureTable, Outcome, Size, Spread, TaskResult, indicator, observed};
 use crate::format::table::{Column, Table};
 use crate::measurement::probe::Probe;
 use crate::plot::{Axis, Layer, Panel, Plot};
@@ -160,7 +160,7 @@ impl Probe for Follow {
     }
 }
 
-fn run(size: Size, piece: usize) -> Piece {
+fn run(size: Size, piece: usize) -> TaskResult {
     let aggressive = piece < runs(size);
     let scenario = scenario(size, aggressive, if aggressive { piece as u64 + 1 } else { 1 });
     let mut follow = Follow { log: Log::default(), every: scenario.steps(EVERY), lane_changes: 0 };
@@ -181,7 +181,7 @@ fn run(size: Size, piece: usize) -> Piece {
     ]);
     columns.push(log.last_changes.clone());
     columns.push(log.last_distances.clone());
-    Piece { columns }
+    TaskResult { columns }
 }
 
 /// Places of the columns of a piece.
@@ -191,7 +191,7 @@ const FACTS: usize = 7;
 const LAST_CHANGES: usize = 8;
 const LAST_DISTANCES: usize = 9;
 
-fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
+fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     let (runs, alone) = pieces.split_at(runs(size));
     let time = runs[0].columns[0].clone();
     let spread = |k: usize| Spread::of(&runs.iter().map(|p| p.columns[k].as_slice()).collect::<Vec<_>>());
@@ -246,44 +246,46 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
     Outcome { tables, plot, claims: claims(size, runs, &alone[0]) }
 }
 
-fn claims(size: Size, runs: &[Piece], alone: &Piece) -> Vec<Claim> {
+fn claims(size: Size, runs: &[TaskResult], alone: &TaskResult) -> Vec<Claim> {
     let until = until(size);
-    let last = |piece: &Piece, k: usize| *piece.columns[k].last().expect("a row at the end");
-    let over = |f: &dyn Fn(&Piece) -> f64| Estimate::mean(&runs.iter().map(f).collect::<Vec<_>>());
-    let fact = |k: usize| over(&|p: &Piece| p.columns[FACTS][k]);
+    let last = |piece: &TaskResult, k: usize| *piece.columns[k].last().expect("a row at the end");
+    let over = |f: &dyn Fn(&TaskResult) -> f64| Estimate::mean(&runs.iter().map(f).collect::<Vec<_>>());
+    let fact = |k: usize| over(&|p: &TaskResult| p.columns[FACTS][k]);
     let seeds = format!("{} runs, seeds 1 to {0}, 95 % interval.", runs.len());
     let claim = |text: &str, unit, expected, ours, how: &str| {
         Claim::new(ID, text, unit, expected, ours, format!("{how} {seeds}").trim().to_owned())
     };
-    let changes = |k: usize| over(&|p: &Piece| last(p, CHANGES + k));
+    let changes = |k: usize| over(&|p: &TaskResult| last(p, CHANGES + k));
     // Of a control driver: the mean of the two neighbours, which halves the noise; both are told.
-    let control = |p: &Piece, first: usize| 0.5 * (last(p, first + 1) + last(p, first + 2));
+    let control = |p: &TaskResult, first: usize| 0.5 * (last(p, first + 1) + last(p, first + 2));
     let both = |of: &dyn Fn(usize) -> Estimate| {
         format!("Mean of both neighbours in lane 2: ahead {}, behind {}.", of(1), of(2))
     };
-    let control_changes = over(&|p: &Piece| control(p, CHANGES));
+    let control_changes = over(&|p: &TaskResult| control(p, CHANGES));
     let ratio = {
         // Of the means; its interval by linear propagation over the paired runs.
         let (a, c) = (changes(0).value, control_changes.value);
-        let spread = over(&|p: &Piece| last(p, CHANGES) - a / c * control(p, CHANGES));
+        let spread = over(&|p: &TaskResult| last(p, CHANGES) - a / c * control(p, CHANGES));
         Estimate::new(a / c, spread.uncertainty / c)
     };
-    let gain_on = |k: usize| over(&|p: &Piece| 100.0 * (last(p, DISTANCES) / last(p, DISTANCES + k) - 1.0));
-    let gain = over(&|p: &Piece| 100.0 * (last(p, DISTANCES) / control(p, DISTANCES) - 1.0));
-    let everyone = over(&|p: &Piece| {
+    let gain_on =
+        |k: usize| over(&|p: &TaskResult| 100.0 * (last(p, DISTANCES) / last(p, DISTANCES + k) - 1.0));
+    let gain = over(&|p: &TaskResult| 100.0 * (last(p, DISTANCES) / control(p, DISTANCES) - 1.0));
+    let everyone = over(&|p: &TaskResult| {
         let all = &p.columns[LAST_DISTANCES];
         100.0 * (all[0] / mean(&all[1..]) - 1.0)
     });
-    let more = over(&|p: &Piece| control(p, CHANGES) - control(alone, CHANGES));
+    let more = over(&|p: &TaskResult| control(p, CHANGES) - control(alone, CHANGES));
     let (enlarged, changed) =
         runs.iter().fold((0.0, 0.0), |(e, c), p| (e + p.columns[FACTS][1], c + p.columns[FACTS][2]));
     let not_enlarged = {
         // Of the sums; changes of one run depend on each other, runs do not.
         let share = (changed - enlarged) / changed;
-        let spread = over(&|p: &Piece| (1.0 - share) * p.columns[FACTS][2] - p.columns[FACTS][1]);
+        let spread = over(&|p: &TaskResult| (1.0 - share) * p.columns[FACTS][2] - p.columns[FACTS][1]);
         Estimate::new(share, spread.uncertainty / (changed / runs.len() as f64))
     };
-    let per_change = over(&|p: &Piece| slope_percent(&p.columns[LAST_CHANGES], &p.columns[LAST_DISTANCES]));
+    let per_change =
+        over(&|p: &TaskResult| slope_percent(&p.columns[LAST_CHANGES], &p.columns[LAST_DISTANCES]));
     let paper_end = until == 500.0;
     let scaled = if paper_end { String::new() } else { format!(" Only {until} s here.") };
     vec![

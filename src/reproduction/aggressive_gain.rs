@@ -1,7 +1,7 @@
 //! Beyond the paper: what aggressive drivers gain, against how aggressive they are, how many, and how dense the
 //! traffic is.
 
-use super::{Figure, FigureTable, Outcome, Piece, Size, measured};
+use super::{Figure, FigureTable, Outcome, Size, TaskResult, measured};
 use crate::format::table::{Column, Table};
 use crate::plot::{Axis, Layer, Panel, Plot};
 use crate::reproduction::claim::{Claim, Estimate, Expected, mean};
@@ -79,7 +79,7 @@ fn runs(size: Size) -> usize {
 }
 
 /// Gain in per cent, lane changes of an aggressive and of another driver, mean speed of all.
-fn run(size: Size, piece: usize) -> Piece {
+fn run(size: Size, piece: usize) -> TaskResult {
     let (point, seed) = (piece / runs(size), piece % runs(size) + 1);
     let scenario = points(size)[point].scenario(size, seed as u64);
     let (_, simulation) = measured(&scenario, &[]);
@@ -91,7 +91,7 @@ fn run(size: Size, piece: usize) -> Piece {
     let distance = |j: usize| simulation.distance(j);
     let changes = |j: usize| f64::from(simulation.lane_changes(j));
     let all: Vec<f64> = (0..simulation.vehicles()).map(distance).collect();
-    Piece {
+    TaskResult {
         columns: vec![vec![
             100.0 * (split(&distance, true) / split(&distance, false) - 1.0),
             split(&changes, true),
@@ -109,7 +109,7 @@ struct Series {
 }
 
 impl Series {
-    fn of(size: Size, pieces: &[Piece], x: impl Fn(Point) -> Option<f64>) -> Self {
+    fn of(size: Size, pieces: &[TaskResult], x: impl Fn(Point) -> Option<f64>) -> Self {
         let mut series = Self { x: Vec::new(), values: Default::default() };
         for (point, of_point) in points(size).into_iter().zip(pieces.chunks(runs(size))) {
             if let Some(at) = x(point) {
@@ -177,7 +177,7 @@ impl Series {
     }
 }
 
-fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
+fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     let lambda = Series::of(size, pieces, |p| if let Point::Sensitivity(l) = p { Some(l) } else { None });
     let share = Series::of(size, pieces, |p| if let Point::Share(s) = p { Some(s) } else { None });
     let density =

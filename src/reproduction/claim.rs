@@ -119,7 +119,7 @@ pub struct Reading {
 
 /// What comes of holding a claim against measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum ClaimVerdict {
     /// Every reading meets the claim.
     Agrees,
     /// None does.
@@ -128,7 +128,7 @@ pub enum Verdict {
     NotDetermined,
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for ClaimVerdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Agrees => "agrees",
@@ -182,12 +182,12 @@ impl Claim {
     }
 
     /// The verdict.
-    pub fn verdict(&self) -> Verdict {
+    pub fn verdict(&self) -> ClaimVerdict {
         let met = self.readings.iter().filter(|r| self.expected.is_met_by(r.ours)).count();
         match met {
-            0 => Verdict::Differs,
-            n if n == self.readings.len() => Verdict::Agrees,
-            _ => Verdict::NotDetermined,
+            0 => ClaimVerdict::Differs,
+            n if n == self.readings.len() => ClaimVerdict::Agrees,
+            _ => ClaimVerdict::NotDetermined,
         }
     }
 
@@ -303,20 +303,20 @@ pub fn to_text(claims: &[Claim]) -> String {
         out,
         "\n{}: {}, {}, {} not determined by the paper (“open” above)",
         words(claims.len(), "claim", "claims"),
-        words(count(Verdict::Agrees), "agrees", "agree"),
-        words(count(Verdict::Differs), "differs", "differ"),
-        count(Verdict::NotDetermined)
+        words(count(ClaimVerdict::Agrees), "agrees", "agree"),
+        words(count(ClaimVerdict::Differs), "differs", "differ"),
+        count(ClaimVerdict::NotDetermined)
     );
     out
 }
 
-struct Short(Verdict);
+struct Short(ClaimVerdict);
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self.0 {
-            Verdict::Agrees => "agrees",
-            Verdict::Differs => "DIFFERS",
-            Verdict::NotDetermined => "open",
+            ClaimVerdict::Agrees => "agrees",
+            ClaimVerdict::Differs => "DIFFERS",
+            ClaimVerdict::NotDetermined => "open",
         })
     }
 }
@@ -365,24 +365,28 @@ mod tests {
     #[test]
     fn a_perturbed_value_flips_its_verdict() {
         let about = |ours| claim(Expected::About(2065.0, 0.5), ours).verdict();
-        assert_eq!(about(Estimate::exact(2065.4)), Verdict::Agrees);
-        assert_eq!(about(Estimate::exact(2065.6)), Verdict::Differs);
-        assert_eq!(about(Estimate::new(2065.6, 0.2)), Verdict::Agrees);
+        assert_eq!(about(Estimate::exact(2065.4)), ClaimVerdict::Agrees);
+        assert_eq!(about(Estimate::exact(2065.6)), ClaimVerdict::Differs);
+        assert_eq!(about(Estimate::new(2065.6, 0.2)), ClaimVerdict::Agrees);
         let most = |ours| claim(Expected::AtMost(2.0), ours).verdict();
-        assert_eq!(most(Estimate::new(1.5, 0.4)), Verdict::Agrees);
+        assert_eq!(most(Estimate::new(1.5, 0.4)), ClaimVerdict::Agrees);
         assert_eq!(
             most(Estimate::new(1.5, 0.6)),
-            Verdict::Differs,
+            ClaimVerdict::Differs,
             "an order must hold for the whole interval"
         );
         let more = |ours| claim(Expected::MoreThan(0.0), ours).verdict();
-        assert_eq!(more(Estimate::new(0.5, 0.4)), Verdict::Agrees);
-        assert_eq!(more(Estimate::new(0.5, 0.5)), Verdict::Differs);
+        assert_eq!(more(Estimate::new(0.5, 0.4)), ClaimVerdict::Agrees);
+        assert_eq!(more(Estimate::new(0.5, 0.5)), ClaimVerdict::Differs);
         for expected in [Expected::About(0.0, 1.0), Expected::AtMost(1.0), Expected::MoreThan(0.0)] {
-            assert_eq!(claim(expected, Estimate::exact(f64::NAN)).verdict(), Verdict::Differs, "no value");
+            assert_eq!(
+                claim(expected, Estimate::exact(f64::NAN)).verdict(),
+                ClaimVerdict::Differs,
+                "no value"
+            );
             assert_eq!(
                 claim(expected, Estimate::new(0.5, f64::NAN)).verdict(),
-                Verdict::Differs,
+                ClaimVerdict::Differs,
                 "one sample"
             );
         }
@@ -391,10 +395,10 @@ mod tests {
     #[test]
     fn readings_that_disagree_leave_a_claim_open() {
         let base = claim(Expected::About(1.0, 0.1), Estimate::exact(1.05));
-        assert_eq!(base.clone().or("other", Estimate::exact(0.95)).verdict(), Verdict::Agrees);
-        assert_eq!(base.clone().or("other", Estimate::exact(2.0)).verdict(), Verdict::NotDetermined);
+        assert_eq!(base.clone().or("other", Estimate::exact(0.95)).verdict(), ClaimVerdict::Agrees);
+        assert_eq!(base.clone().or("other", Estimate::exact(2.0)).verdict(), ClaimVerdict::NotDetermined);
         let far = claim(Expected::About(1.0, 0.1), Estimate::exact(3.0)).or("other", Estimate::exact(2.0));
-        assert_eq!(far.verdict(), Verdict::Differs);
+        assert_eq!(far.verdict(), ClaimVerdict::Differs);
         assert!(far.method_in_words().contains("Readings tried: 2, of which 0"));
     }
 

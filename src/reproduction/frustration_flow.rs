@@ -1,6 +1,6 @@
 //! Beyond the paper: flow, balance and lane changes over the plane of r and p.
 
-use super::{Figure, FigureTable, Outcome, Piece, Size, column, measured};
+use super::{Figure, FigureTable, Outcome, Size, TaskResult, column, measured};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::plot::{Axis, Layer, Panel, Plot};
@@ -55,7 +55,7 @@ fn scenario(size: Size, r: f64, p: f64, seed: u64) -> Scenario {
 }
 
 /// Run by run: flow (veh/s), ΔN, lane changes of a vehicle a minute; all from 60 s on.
-fn run(size: Size, piece: usize) -> Piece {
+fn run(size: Size, piece: usize) -> TaskResult {
     let rates = rates(size);
     let (r, p) = (rates[piece / rates.len()], rates[piece % rates.len()]);
     let mut columns = vec![Vec::new(); 3];
@@ -76,10 +76,10 @@ fn run(size: Size, piece: usize) -> Piece {
         let speed = if b > a { (distance[b] - distance[a]) / (at[b] - at[a]) } else { distance[b] / at[b] };
         columns[0].push(speed * n / scenario.length);
     }
-    Piece { columns }
+    TaskResult { columns }
 }
 
-fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
+fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     let rates = rates(size);
     let k = rates.len();
     let each = |which: usize| -> Vec<Estimate> {

@@ -1,6 +1,6 @@
 //! The speed law and the fundamental diagram, theory and, as points, rings that were run.
 
-use super::{Figure, FigureTable, Outcome, Piece, Size, column, measured};
+use super::{Figure, FigureTable, Outcome, Size, TaskResult, column, measured};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::plot::{Axis, Layer, Panel, Plot};
@@ -30,14 +30,14 @@ fn scenario(vehicles: usize) -> Scenario {
 }
 
 /// Flow, veh/s.
-fn run(size: Size, piece: usize) -> Piece {
+fn run(size: Size, piece: usize) -> TaskResult {
     let scenario = scenario(rings(size)[piece]);
     let (tables, _) = measured(&scenario, &[Measurement::Drivers { every: 60.0 }]);
     let speed = *column(&tables[0], "mean_speed_m_per_s").last().expect("a row at the end");
-    Piece { columns: vec![vec![speed * scenario.vehicles as f64 / scenario.length]] }
+    TaskResult { columns: vec![vec![speed * scenario.vehicles as f64 / scenario.length]] }
 }
 
-fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
+fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     let driver = Driver::default();
     let headways: Vec<f64> = (0..=400).map(|i| f64::from(i) * 0.5).collect();
     let speeds: Vec<f64> = headways.iter().map(|&h| driver.speed(h)).collect();

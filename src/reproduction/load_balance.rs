@@ -1,6 +1,6 @@
 //! Two lanes share the load: all vehicles start in one of them.
 
-use super::{Figure, FigureTable, Outcome, Piece, Size, Spread, column, measured};
+use super::{Figure, FigureTable, Outcome, Size, Spread, TaskResult, column, measured};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::plot::{Axis, Layer, Panel, Plot};
@@ -66,7 +66,7 @@ fn scenario(size: Size, (r, p): (f64, f64), seed: u64) -> Scenario {
 }
 
 /// ΔN from 60 s on and over the last 50 s; then, of a run of the figure, time, ΔN, flow; a row each half second.
-fn run(size: Size, piece: usize) -> Piece {
+fn run(size: Size, piece: usize) -> TaskResult {
     let (which, seed) = (piece / long_runs(size), piece % long_runs(size) + 1);
     let scenario = scenario(size, PATIENCE[which], seed as u64);
     let flow = Measurement::Flow { every: 0.5, window: 5.0, at: None };
@@ -80,7 +80,7 @@ fn run(size: Size, piece: usize) -> Piece {
     if seed <= runs(size) {
         columns.extend([time, imbalance, column(&tables[1], "flow_veh_per_s")]);
     }
-    Piece { columns }
+    TaskResult { columns }
 }
 
 /// E|2B − N| of a binomial B with N trials of probability 1/2: ΔN if every vehicle chose a lane by a coin.
@@ -109,7 +109,7 @@ struct Group<'a> {
 }
 
 impl<'a> Group<'a> {
-    fn of(size: Size, pieces: &'a [Piece]) -> Self {
+    fn of(size: Size, pieces: &'a [TaskResult]) -> Self {
         let long = |k: usize| Estimate::mean(&pieces.iter().map(|p| p.columns[0][k]).collect::<Vec<_>>());
         let column = |k: usize| pieces[..runs(size)].iter().map(|p| p.columns[k].as_slice()).collect();
         Self {
@@ -143,7 +143,7 @@ impl<'a> Group<'a> {
     }
 }
 
-fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
+fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     let (paper, tenth) = pieces.split_at(long_runs(size));
     let (paper, tenth) = (Group::of(size, paper), Group::of(size, tenth));
     let how = |(r, p): (f64, f64)| format!("{} runs, seeds 1 to {0}, r = {r} /s, p = {p}", runs(size));

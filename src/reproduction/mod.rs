@@ -5,7 +5,7 @@
 //!
 //! A figure is a list of independent *pieces* of work, most of them one run each. Natively they run in parallel; a
 //! page spreads them over workers, shows how many are done, and cancels by not asking for more. What a piece gives is
-//! columns of numbers, a [`Piece`], which crosses from a worker as one array. [`Figure::assemble`] turns
+//! columns of numbers, a [`TaskResult`], which crosses from a worker as one array. [`Figure::assemble`] turns
 //! all pieces into an [`Outcome`]; the result does not depend on who ran which piece in which order.
 //!
 //! Run k of a Monte Carlo figure has seed k, counted from 1.
@@ -20,7 +20,7 @@ mod load_balance;
 mod stability;
 mod waves;
 
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::format::table::{Column, Table, Values};
 use crate::measurement::Measurement;
 use crate::measurement::probe::{Probe, measure};
@@ -50,12 +50,12 @@ impl Size {
 
 /// What a piece of work gives: columns of numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
+pub struct TaskResult {
     /// The columns.
     pub columns: Vec<Vec<f64>>,
 }
 
-impl Piece {
+impl TaskResult {
     /// As one array: the number of columns, their lengths, then their numbers.
     pub fn flat(&self) -> Vec<f64> {
         let lengths = self.columns.iter().map(|c| c.len() as f64);
@@ -66,9 +66,9 @@ impl Piece {
     }
 
     /// Reads such an array.
-    pub fn from_flat(flat: &[f64]) -> Result<Self, Invalid> {
+    pub fn from_flat(flat: &[f64]) -> Result<Self, Error> {
         let wrong =
-            || Invalid::new("piece", "an array of another form", "an array that a piece of a figure gave");
+            || Error::new("piece", "an array of another form", "an array that a piece of a figure gave");
         let (&count, rest) = flat.split_first().ok_or_else(wrong)?;
         let count = count as usize;
         if rest.len() < count {
@@ -91,15 +91,15 @@ impl Piece {
 
 /// A piece of work that has begun. Where nothing else can stop it, it is done in slices, with a look at the person's
 /// wishes in between.
-pub trait Work {
+pub trait Task {
     /// Goes on for about so many updates of a vehicle, or to its end where it is short; gives the piece when it is
     /// done.
-    fn advance(&mut self, updates: u64) -> Option<Piece>;
+    fn advance(&mut self, updates: u64) -> Option<TaskResult>;
 }
 
 /// Work that is short enough to be done at once.
-impl<F: FnMut() -> Piece> Work for F {
-    fn advance(&mut self, _: u64) -> Option<Piece> {
+impl<F: FnMut() -> TaskResult> Task for F {
+    fn advance(&mut self, _: u64) -> Option<TaskResult> {
         Some(self())
     }
 }
@@ -175,9 +175,9 @@ pub struct Figure {
     #[serde(skip)]
     pieces: fn(Size) -> Vec<String>,
     #[serde(skip)]
-    start: fn(Size, usize) -> Box<dyn Work>,
+    start: fn(Size, usize) -> Box<dyn Task>,
     #[serde(skip)]
-    assemble: fn(Size, &[Piece]) -> Outcome,
+    assemble: fn(Size, &[TaskResult]) -> Outcome,
 }
 
 /// Every figure, in the order of the paper, then those beyond it.
@@ -193,10 +193,10 @@ pub static FIGURES: [Figure; 7] = [
 
 impl Figure {
     /// The figure of that name.
-    pub fn named(id: &str) -> Result<&'static Self, Invalid> {
+    pub fn named(id: &str) -> Result<&'static Self, Error> {
         FIGURES.iter().find(|f| f.id == id).ok_or_else(|| {
             let ids: Vec<_> = FIGURES.iter().map(|f| f.id).collect();
-            Invalid::new("figure", quoted(id), format!("{} or all", ids.join(", ")))
+            Error::new("figure", quoted(id), format!("{} or all", ids.join(", ")))
         })
     }
 
@@ -209,7 +209,7 @@ impl Figure {
     ///
     /// # Panics
     /// If there is no such piece.
-    pub fn start(&self, size: Size, piece: usize) -> Box<dyn Work> {
+    pub fn start(&self, size: Size, piece: usize) -> Box<dyn Task> {
         (self.start)(size, piece)
     }
 
@@ -217,7 +217,7 @@ impl Figure {
     ///
     /// # Panics
     /// If there is no such piece.
-    pub fn run(&self, size: Size, piece: usize) -> Piece {
+    pub fn run(&self, size: Size, piece: usize) -> TaskResult {
         let mut work = self.start(size, piece);
         loop {
             if let Some(piece) = work.advance(u64::MAX) {
@@ -227,12 +227,12 @@ impl Figure {
     }
 
     /// Tables, picture and claims from all pieces, in their order.
-    pub fn assemble(&self, size: Size, pieces: &[Piece]) -> Result<Outcome, Invalid> {
+    pub fn assemble(&self, size: Size, pieces: &[TaskResult]) -> Result<Outcome, Error> {
         let needed = self.pieces(size).len();
         if pieces.len() == needed {
             Ok((self.assemble)(size, pieces))
         } else {
-            Err(Invalid::new("pieces", pieces.len(), format!("{needed} for {}", self.id)))
+            Err(Error::new("pieces", pieces.len(), format!("{needed} for {}", self.id)))
         }
     }
 
@@ -385,10 +385,10 @@ mod tests {
 
     #[test]
     fn pieces_cross_as_one_array() {
-        let piece = Piece { columns: vec![vec![1.0, 2.5], vec![], vec![-3.0]] };
-        assert_eq!(Piece::from_flat(&piece.flat()).unwrap(), piece);
+        let piece = TaskResult { columns: vec![vec![1.0, 2.5], vec![], vec![-3.0]] };
+        assert_eq!(TaskResult::from_flat(&piece.flat()).unwrap(), piece);
         for broken in [&[][..], &[2.0, 1.0], &[1.0, 2.0, 5.0], &[1.0, 1.0, 5.0, 6.0]] {
-            assert!(Piece::from_flat(broken).is_err(), "{broken:?}");
+            assert!(TaskResult::from_flat(broken).is_err(), "{broken:?}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! Growth against reaction time, in the simulation and in theory, and the critical reaction time against N.
 
 use super::cyclic::{Depths, Period, TAKEN, round_trip};
-use super::{Figure, FigureTable, Outcome, Piece, Size, Work, column, indicator, nudged};
+use super::{Figure, FigureTable, Outcome, Size, Task, TaskResult, column, indicator, nudged};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::measurement::probe::Probe;
@@ -9,7 +9,7 @@ use crate::plot::{Axis, Layer, Panel, Plot};
 use crate::reproduction::claim::{Claim, Estimate, Expected};
 use crate::scenario::driver::Driver;
 use crate::simulation::Simulation;
-use crate::stability::homogeneous::{EqualRing, Time};
+use crate::stability::homogeneous::{HomogeneousRing, Time};
 
 const ID: &str = "stability";
 
@@ -45,14 +45,14 @@ fn pieces(size: Size) -> Vec<String> {
     delays.chain(rings(size).iter().map(|n| format!("critical reaction time of {n} vehicles"))).collect()
 }
 
-fn ring(vehicles: usize) -> EqualRing {
-    EqualRing { vehicles, slope: Driver::default().slope(1000.0 / vehicles as f64) }
+fn ring(vehicles: usize) -> HomogeneousRing {
+    HomogeneousRing { vehicles, slope: Driver::default().slope(1000.0 / vehicles as f64) }
 }
 
-fn start(size: Size, piece: usize) -> Box<dyn Work> {
+fn start(size: Size, piece: usize) -> Box<dyn Task> {
     let delays = reaction_times(size);
     if let Some(&delay) = delays.get(piece) {
-        return Box::new(move || Piece { columns: vec![growth(delay)] });
+        return Box::new(move || TaskResult { columns: vec![growth(delay)] });
     }
     Box::new(Search {
         vehicles: rings(size)[piece - delays.len()],
@@ -113,9 +113,9 @@ impl Search {
     }
 }
 
-impl Work for Search {
+impl Task for Search {
     /// The middle between the two, in steps.
-    fn advance(&mut self, updates: u64) -> Option<Piece> {
+    fn advance(&mut self, updates: u64) -> Option<TaskResult> {
         let mut steps = updates / self.vehicles as u64;
         while self.growing - self.fades > 1 {
             let (mut simulation, mut probe) = self.run.take().unwrap_or_else(|| self.begin());
@@ -134,11 +134,11 @@ impl Work for Search {
             let middle = self.middle();
             if grows { self.growing = middle } else { self.fades = middle }
         }
-        Some(Piece { columns: vec![vec![f64::from(self.fades) + 0.5]] })
+        Some(TaskResult { columns: vec![vec![f64::from(self.fades) + 0.5]] })
     }
 }
 
-fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
+fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     let delays = reaction_times(size);
     let (scans, thresholds) = pieces.split_at(delays.len());
     let values = |k: usize| scans.iter().map(|p| p.columns[0][k]).collect::<Vec<f64>>();
@@ -215,7 +215,7 @@ fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
 
 struct Scan<'a> {
     delays: Vec<f64>,
-    scans: &'a [Piece],
+    scans: &'a [TaskResult],
 }
 
 impl Scan<'_> {
@@ -415,7 +415,7 @@ fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<
             Expected::About(0.5, 1e-9),
             Estimate::exact(
                 Driver::default().sensitivity
-                    * EqualRing { vehicles: 1_000_000, slope: Driver::default().sensitivity }
+                    * HomogeneousRing { vehicles: 1_000_000, slope: Driver::default().sensitivity }
                         .critical(Time::Continuous),
             ),
             "Linear theory at a slope of λ and a million vehicles; tolerance 1e-9.",

@@ -2,7 +2,7 @@
 
 use super::cyclic::{Choice, Depths, TAKEN, equilibrium_speed, round_trip};
 use super::{
-    Figure, FigureTable, Outcome, Piece, Size, column, indicator, measured, nudged, numbers, refilled,
+    Figure, FigureTable, Outcome, Size, TaskResult, column, indicator, measured, nudged, numbers, refilled,
 };
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
@@ -61,11 +61,11 @@ fn measurements(size: Size) -> [Measurement; 3] {
 }
 
 /// A panel: columns of the two tables, then what [`Waves`] saw, the time of the collision, and all [`Depths`].
-fn run(size: Size, piece: usize) -> Piece {
+fn run(size: Size, piece: usize) -> TaskResult {
     let Some(&(reaction_time, _)) = CASES.get(piece) else {
         let scenario = scenario(size, NEIGHBOURS[piece - CASES.len()]);
         let (_, simulation) = measured(&scenario, &[]);
-        return Piece { columns: vec![vec![collision_time(&simulation)]] };
+        return TaskResult { columns: vec![vec![collision_time(&simulation)]] };
     };
     let scenario = scenario(size, reaction_time);
     let probe = |m: &Measurement| m.probe(&scenario).expect("measurements of figures are valid");
@@ -83,7 +83,7 @@ fn run(size: Size, piece: usize) -> Piece {
     columns.push(waves.deviation);
     columns.push(vec![collision_time(&simulation)]);
     columns.extend(depths.into_columns());
-    Piece { columns }
+    TaskResult { columns }
 }
 
 fn collision_time(simulation: &Simulation) -> f64 {
@@ -155,7 +155,7 @@ struct Case<'a> {
 }
 
 impl<'a> Case<'a> {
-    fn of(size: Size, case: usize, piece: &'a Piece) -> Self {
+    fn of(size: Size, case: usize, piece: &'a TaskResult) -> Self {
         let scenario = scenario(size, CASES[case].0);
         let [speeds, flow, map] = measurements(size);
         let (speed_columns, rest) = piece.columns.split_at(6);
@@ -259,7 +259,7 @@ fn equilibrium_flow() -> f64 {
     Driver::default().flow(0.05)
 }
 
-fn assemble(size: Size, pieces: &[Piece]) -> Outcome {
+fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     let cases: Vec<Case> =
         pieces[..CASES.len()].iter().enumerate().map(|(k, piece)| Case::of(size, k, piece)).collect();
     let neighbours: Vec<f64> = pieces[CASES.len()..].iter().map(|p| p.columns[0][0]).collect();
@@ -478,7 +478,7 @@ fn one_choice(cases: &[Case]) -> Claim {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reproduction::claim::Verdict;
+    use crate::reproduction::claim::ClaimVerdict;
 
     /// A wave put in by hand, three crests moving upstream at 5 m/s.
     #[test]
@@ -500,15 +500,15 @@ mod tests {
 
     #[test]
     fn a_verdict_flips_with_its_value() {
-        let pieces: Vec<Piece> = (0..5).map(|k| run(Size::Small, k)).collect();
-        let upstream = |pieces: &[Piece]| {
+        let pieces: Vec<TaskResult> = (0..5).map(|k| run(Size::Small, k)).collect();
+        let upstream = |pieces: &[TaskResult]| {
             let claims = assemble(Size::Small, pieces).claims;
             let claim = claims.into_iter().find(|c| c.claim.contains("upstream at Δ = 0.75"));
             claim.expect("the claim").verdict()
         };
-        assert_eq!(upstream(&pieces), Verdict::Agrees);
+        assert_eq!(upstream(&pieces), ClaimVerdict::Agrees);
         let mut perturbed = pieces;
         perturbed[2].columns[12][0] *= -1.0;
-        assert_eq!(upstream(&perturbed), Verdict::Differs);
+        assert_eq!(upstream(&perturbed), ClaimVerdict::Differs);
     }
 }

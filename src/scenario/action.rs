@@ -8,14 +8,14 @@
 //! WHO         all | NUMBER | FIRST-LAST | SHARE%          (a share of the vehicles, drawn by the seed)
 //! ```
 
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::scenario::parameters::{PARAMETERS, Parameter};
 use std::fmt;
 use std::str::FromStr;
 
 /// The vehicles that an action or an exception speaks of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Who {
+pub enum VehicleSelector {
     /// Every vehicle.
     All,
     /// One vehicle, by its number from 1.
@@ -43,23 +43,23 @@ pub struct Action {
     /// Time, s.
     pub at: f64,
     /// To whom.
-    pub who: Who,
+    pub who: VehicleSelector,
     /// What, in this order.
     pub effects: Vec<Effect>,
 }
 
 /// Drivers who differ from the default one from the start.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Exception {
+pub struct DriverOverride {
     /// Who.
-    pub who: Who,
+    pub who: VehicleSelector,
     /// Parameters that differ, with their values.
     pub values: Vec<(&'static Parameter, f64)>,
 }
 
-impl Who {
+impl VehicleSelector {
     /// Whether such vehicles exist among `vehicles`.
-    pub fn check(self, vehicles: usize) -> Result<(), Invalid> {
+    pub fn check(self, vehicles: usize) -> Result<(), Error> {
         let fits = match self {
             Self::All => true,
             Self::Vehicle(n) => (1..=vehicles).contains(&n),
@@ -71,12 +71,12 @@ impl Who {
         } else {
             let allowed =
                 format!("a vehicle from 1 to {vehicles}, a range such as 3-7, “all”, or 0% to 100%");
-            Err(Invalid::new("vehicle", self, allowed))
+            Err(Error::new("vehicle", self, allowed))
         }
     }
 }
 
-impl fmt::Display for Who {
+impl fmt::Display for VehicleSelector {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::All => write!(f, "all"),
@@ -87,12 +87,12 @@ impl fmt::Display for Who {
     }
 }
 
-impl FromStr for Who {
-    type Err = Invalid;
-    fn from_str(text: &str) -> Result<Self, Invalid> {
+impl FromStr for VehicleSelector {
+    type Err = Error;
+    fn from_str(text: &str) -> Result<Self, Error> {
         let text = text.trim();
         let wrong = || {
-            Invalid::new(
+            Error::new(
                 "vehicle",
                 quoted(text),
                 "a number, a range such as 3-7, “all”, or a share such as 10%",
@@ -115,14 +115,14 @@ impl FromStr for Who {
 
 impl Effect {
     /// Whether the value is allowed on a ring of `length` metres.
-    pub fn check(self, length: f64) -> Result<(), Invalid> {
+    pub fn check(self, length: f64) -> Result<(), Error> {
         match self {
             Self::Set(parameter, value) => parameter.check(value),
             Self::Brake(seconds) if (0.0..=1e7).contains(&seconds) => Ok(()),
-            Self::Brake(seconds) => Err(Invalid::new("brake", seconds, "a number from 0 to 10000000 s")),
+            Self::Brake(seconds) => Err(Error::new("brake", seconds, "a number from 0 to 10000000 s")),
             Self::Nudge(metres) if metres.abs() <= length => Ok(()),
             Self::Nudge(metres) => {
-                Err(Invalid::new("nudge", metres, format!("a number from -{length} to {length} m, one lap")))
+                Err(Error::new("nudge", metres, format!("a number from -{length} to {length} m, one lap")))
             }
         }
     }
@@ -139,31 +139,30 @@ impl fmt::Display for Effect {
 }
 
 /// `NAME=VALUE` with a number; a refusal names `what` it is.
-fn assignment<'a>(what: &'static str, text: &'a str) -> Result<(&'a str, f64), Invalid> {
+fn assignment<'a>(what: &'static str, text: &'a str) -> Result<(&'a str, f64), Error> {
     let (name, value) = text
         .split_once('=')
-        .ok_or_else(|| Invalid::new(what, quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
+        .ok_or_else(|| Error::new(what, quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
     let name = name.trim();
-    let number =
-        value.trim().parse().map_err(|_| Invalid::new(name.to_owned(), quoted(value), "a number"))?;
+    let number = value.trim().parse().map_err(|_| Error::new(name.to_owned(), quoted(value), "a number"))?;
     Ok((name, number))
 }
 
-/// What an [`Effect`] is called, and what an [`Exception`] sets.
+/// What an [`Effect`] is called, and what an [`DriverOverride`] sets.
 const EFFECT: &str = "effect";
 const OF_DRIVER: &str = "driver's parameter";
 
-fn driver_parameter(what: &'static str, name: &str, others: &str) -> Result<&'static Parameter, Invalid> {
+fn driver_parameter(what: &'static str, name: &str, others: &str) -> Result<&'static Parameter, Error> {
     Parameter::named(name).filter(|p| p.is_of_driver()).ok_or_else(|| {
         let names: Vec<_> =
             PARAMETERS.iter().filter(|p| p.is_of_driver()).map(Parameter::hyphenated).collect();
-        Invalid::new(what, quoted(name), format!("{}{others}", names.join(", ")))
+        Error::new(what, quoted(name), format!("{}{others}", names.join(", ")))
     })
 }
 
 impl FromStr for Effect {
-    type Err = Invalid;
-    fn from_str(text: &str) -> Result<Self, Invalid> {
+    type Err = Error;
+    fn from_str(text: &str) -> Result<Self, Error> {
         match assignment(EFFECT, text)? {
             ("brake", seconds) => Ok(Self::Brake(seconds)),
             ("nudge", metres) => Ok(Self::Nudge(metres)),
@@ -180,8 +179,8 @@ impl fmt::Display for Action {
 
 impl Action {
     /// `WHO:EFFECT[,EFFECT …]`, at a time in s.
-    pub fn at(at: f64, text: &str) -> Result<Self, Invalid> {
-        let form = || Invalid::new("action", quoted(text), "WHO:EFFECT, such as 7:brake=3");
+    pub fn at(at: f64, text: &str) -> Result<Self, Error> {
+        let form = || Error::new("action", quoted(text), "WHO:EFFECT, such as 7:brake=3");
         let (who, effects) = text.split_once(':').filter(|(who, _)| !who.contains('=')).ok_or_else(form)?;
         Self::of(at, who, effects).map_err(|e| e.within(quoted(text)))
     }
@@ -196,24 +195,22 @@ impl Action {
                 _ => false,
             })
         };
-        !matches!(self.who, Who::Share(_)) && self.who == earlier.who && earlier.effects.iter().all(again)
+        !matches!(self.who, VehicleSelector::Share(_))
+            && self.who == earlier.who
+            && earlier.effects.iter().all(again)
     }
 
-    fn of(at: f64, who: &str, effects: &str) -> Result<Self, Invalid> {
+    fn of(at: f64, who: &str, effects: &str) -> Result<Self, Error> {
         let effects = effects.split(',').map(str::parse).collect::<Result<_, _>>()?;
         Ok(Self { at, who: who.parse()?, effects })
     }
 }
 
 impl FromStr for Action {
-    type Err = Invalid;
-    fn from_str(text: &str) -> Result<Self, Invalid> {
+    type Err = Error;
+    fn from_str(text: &str) -> Result<Self, Error> {
         let form = || {
-            Invalid::new(
-                "action",
-                quoted(text),
-                "at=SECONDS:WHO:EFFECT, such as at=30:all:reaction-time=0.75",
-            )
+            Error::new("action", quoted(text), "at=SECONDS:WHO:EFFECT, such as at=30:all:reaction-time=0.75")
         };
         let mut parts = text.trim().splitn(3, ':');
         let (Some(at), Some(who), Some(effects)) = (parts.next(), parts.next(), parts.next()) else {
@@ -227,28 +224,28 @@ impl FromStr for Action {
     }
 }
 
-impl fmt::Display for Exception {
+impl fmt::Display for DriverOverride {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let values: Vec<_> = self.values.iter().map(|&(p, v)| Effect::Set(p, v)).collect();
         write!(f, "{}:{}", self.who, joined(&values))
     }
 }
 
-impl FromStr for Exception {
-    type Err = Invalid;
-    fn from_str(text: &str) -> Result<Self, Invalid> {
+impl FromStr for DriverOverride {
+    type Err = Error;
+    fn from_str(text: &str) -> Result<Self, Error> {
         let (who, values) = text.split_once(':').ok_or_else(|| {
-            Invalid::new("driver", quoted(text), "WHO:PARAMETER=VALUE, such as 12:sensitivity=2")
+            Error::new("driver", quoted(text), "WHO:PARAMETER=VALUE, such as 12:sensitivity=2")
         })?;
         Ok(Self {
-            who: who.parse().map_err(|e: Invalid| e.within(quoted(text)))?,
+            who: who.parse().map_err(|e: Error| e.within(quoted(text)))?,
             values: driver_values(values).map_err(|e| e.within(quoted(text)))?,
         })
     }
 }
 
 /// `PARAMETER=VALUE[,PARAMETER=VALUE …]` of a driver.
-pub(crate) fn driver_values(text: &str) -> Result<Vec<(&'static Parameter, f64)>, Invalid> {
+pub(crate) fn driver_values(text: &str) -> Result<Vec<(&'static Parameter, f64)>, Error> {
     let one = |text: &str| {
         let (name, value) = assignment(OF_DRIVER, text)?;
         Ok((driver_parameter(OF_DRIVER, name, "")?, value))
@@ -275,7 +272,7 @@ mod tests {
             assert_eq!(text.parse::<Action>().unwrap().to_string(), text);
         }
         for text in ["12:sensitivity=2", "10%:sensitivity=2,reaction-time=0.5", "all:max-speed=30"] {
-            assert_eq!(text.parse::<Exception>().unwrap().to_string(), text);
+            assert_eq!(text.parse::<DriverOverride>().unwrap().to_string(), text);
         }
         assert_eq!("at=1:2:reaction_time=1".parse::<Action>().unwrap().to_string(), "at=1:2:reaction-time=1");
     }
@@ -328,11 +325,16 @@ mod tests {
             ("12:brake=2", "driver's parameter: “brake”"),
             ("12:sensitivity", "driver's parameter: “sensitivity”"),
         ] {
-            let message = text.parse::<Exception>().unwrap_err().to_string();
+            let message = text.parse::<DriverOverride>().unwrap_err().to_string();
             assert!(message.contains(named) && !message.contains("effect"), "{message}");
         }
-        assert!(Who::Vehicle(51).check(50).unwrap_err().to_string().contains("51"));
-        assert!(Who::Vehicle(0).check(50).is_err() && Who::Range(7, 3).check(50).is_err());
-        assert!(Who::Share(f64::NAN).check(50).is_err() && Who::Share(101.0).check(50).is_err());
+        assert!(VehicleSelector::Vehicle(51).check(50).unwrap_err().to_string().contains("51"));
+        assert!(
+            VehicleSelector::Vehicle(0).check(50).is_err() && VehicleSelector::Range(7, 3).check(50).is_err()
+        );
+        assert!(
+            VehicleSelector::Share(f64::NAN).check(50).is_err()
+                && VehicleSelector::Share(101.0).check(50).is_err()
+        );
     }
 }

@@ -4,7 +4,7 @@
 //! `action`, the last two in the grammar of [`crate::scenario::action`]. Only what differs from [`base`] is written. A bad
 //! entry is reported and the rest applies.
 
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::scenario::parameters::{PARAMETERS, Parameter};
 use crate::scenario::{Scenario, Start};
 use std::fmt::Write as _;
@@ -23,20 +23,20 @@ pub struct Reading {
     /// A valid scenario, made of every entry that could be used.
     pub scenario: Scenario,
     /// The entries that could not be used, each with the reason.
-    pub refused: Vec<(String, Invalid)>,
+    pub refused: Vec<(String, Error)>,
 }
 
 /// One entry, understood by itself.
 enum Entry {
     Number(&'static Parameter, f64),
     Start(Start),
-    Driver(crate::scenario::action::Exception),
+    Driver(crate::scenario::action::DriverOverride),
     Action(crate::scenario::action::Action),
 }
 
 impl Entry {
-    fn read(text: &str) -> Result<Self, Invalid> {
-        let form = || Invalid::new("link", quoted(text), "NAME=VALUE, such as reaction-time=0.75");
+    fn read(text: &str) -> Result<Self, Error> {
+        let form = || Error::new("link", quoted(text), "NAME=VALUE, such as reaction-time=0.75");
         let (name, value) = text.split_once('=').ok_or_else(form)?;
         let value = decoded(value)?;
         match name {
@@ -50,7 +50,7 @@ impl Entry {
         }
     }
 
-    fn apply(&self, scenario: &mut Scenario) -> Result<(), Invalid> {
+    fn apply(&self, scenario: &mut Scenario) -> Result<(), Error> {
         match self {
             Self::Number(parameter, value) => parameter.set(scenario, *value)?,
             Self::Start(start) => scenario.start = *start,
@@ -61,10 +61,10 @@ impl Entry {
     }
 }
 
-fn unknown(name: &str) -> Invalid {
+fn unknown(name: &str) -> Error {
     let mut names: Vec<_> = PARAMETERS.iter().map(Parameter::hyphenated).collect();
     names.extend(["start", "driver", "action"].map(String::from));
-    Invalid::new("link", quoted(name), names.join(", "))
+    Error::new("link", quoted(name), names.join(", "))
 }
 
 /// Reads the part of a link after `#`; a leading `#` is skipped.
@@ -105,7 +105,7 @@ pub fn parse(text: &str) -> Reading {
     Reading { scenario: build(&entries, &used).unwrap_or_else(|_| base()), refused }
 }
 
-fn build(entries: &[(&str, Entry)], used: &[bool]) -> Result<Scenario, Invalid> {
+fn build(entries: &[(&str, Entry)], used: &[bool]) -> Result<Scenario, Error> {
     let mut scenario = base();
     for ((_, entry), _) in entries.iter().zip(used).filter(|(_, used)| **used) {
         entry.apply(&mut scenario)?;
@@ -144,9 +144,8 @@ fn encoded(text: &str) -> String {
     out
 }
 
-fn decoded(text: &str) -> Result<String, Invalid> {
-    let wrong =
-        || Invalid::new("link", quoted(text), "percent-encoded text, such as at%3D40%3A7%3Abrake%3D3");
+fn decoded(text: &str) -> Result<String, Error> {
+    let wrong = || Error::new("link", quoted(text), "percent-encoded text, such as at%3D40%3A7%3Abrake%3D3");
     let mut bytes = Vec::new();
     let mut rest = text.as_bytes();
     while let Some((&first, tail)) = rest.split_first() {

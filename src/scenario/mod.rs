@@ -10,10 +10,10 @@ pub mod link;
 pub mod parameters;
 pub mod presets;
 
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::format::json::{Json, Object};
 use crate::numerics::random;
-use crate::scenario::action::{Action, Effect, Exception, Who};
+use crate::scenario::action::{Action, DriverOverride, Effect, VehicleSelector};
 use crate::scenario::driver::Driver;
 use crate::scenario::parameters::{PARAMETERS, Parameter, Scope};
 use serde::Serialize;
@@ -49,10 +49,10 @@ impl fmt::Display for Start {
 }
 
 impl FromStr for Start {
-    type Err = Invalid;
-    fn from_str(text: &str) -> Result<Self, Invalid> {
+    type Err = Error;
+    fn from_str(text: &str) -> Result<Self, Error> {
         let wrong =
-            || Invalid::new("start", quoted(text), "uniform, one-lane, one-lane=LANE, staggered or random");
+            || Error::new("start", quoted(text), "uniform, one-lane, one-lane=LANE, staggered or random");
         match text.trim().split_once('=') {
             None => match text.trim() {
                 "uniform" => Ok(Self::Uniform),
@@ -87,7 +87,7 @@ pub struct Scenario {
     /// The default driver.
     pub driver: Driver,
     /// Drivers who differ, applied in order.
-    pub exceptions: Vec<Exception>,
+    pub exceptions: Vec<DriverOverride>,
     /// What happens on the way. Order matters among actions of the same step only.
     pub actions: Vec<Action>,
 }
@@ -159,7 +159,7 @@ impl Scenario {
     pub fn drivers(&self) -> Vec<Driver> {
         let mut drivers = vec![self.driver; self.vehicles];
         for (k, exception) in self.exceptions.iter().enumerate() {
-            for vehicle in self.members(exception.who, random::Stream::Exception(k)) {
+            for vehicle in self.members(exception.who, random::Stream::DriverOverride(k)) {
                 for &(parameter, value) in &exception.values {
                     assign(&mut drivers[vehicle], parameter, value);
                 }
@@ -169,12 +169,12 @@ impl Scenario {
     }
 
     /// The vehicles (indices from 0, ascending) that `who` means; a share is drawn from `stream`.
-    pub(crate) fn members(&self, who: Who, stream: random::Stream) -> Vec<usize> {
+    pub(crate) fn members(&self, who: VehicleSelector, stream: random::Stream) -> Vec<usize> {
         match who {
-            Who::All => (0..self.vehicles).collect(),
-            Who::Vehicle(n) => vec![n - 1],
-            Who::Range(first, last) => (first - 1..last).collect(),
-            Who::Share(percent) => {
+            VehicleSelector::All => (0..self.vehicles).collect(),
+            VehicleSelector::Vehicle(n) => vec![n - 1],
+            VehicleSelector::Range(first, last) => (first - 1..last).collect(),
+            VehicleSelector::Share(percent) => {
                 let count = (percent / 100.0 * self.vehicles as f64).round() as usize;
                 random::Generator::new(self.seed, stream).choose(count.min(self.vehicles), self.vehicles)
             }
@@ -182,12 +182,12 @@ impl Scenario {
     }
 
     /// Whether it can be run: every value in its range, every combination with a meaning, a start that fits.
-    pub fn validate(&self) -> Result<(), Invalid> {
+    pub fn validate(&self) -> Result<(), Error> {
         for parameter in &PARAMETERS {
             parameter.check(parameter.get(self))?;
         }
         for (k, exception) in self.exceptions.iter().enumerate() {
-            let place = |e: Invalid| e.within(format!("exceptions[{}] “{exception}”", k + 1));
+            let place = |e: Error| e.within(format!("exceptions[{}] “{exception}”", k + 1));
             exception.who.check(self.vehicles).map_err(place)?;
             for &(parameter, value) in &exception.values {
                 parameter.check(value).map_err(place)?;
@@ -201,9 +201,9 @@ impl Scenario {
     }
 
     /// Whether an action by itself makes sense here.
-    pub(crate) fn check_action(&self, action: &Action) -> Result<(), Invalid> {
+    pub(crate) fn check_action(&self, action: &Action) -> Result<(), Error> {
         if !(0.0..=1e7).contains(&action.at) {
-            return Err(Invalid::new("at", action.at, "a number from 0 to 10000000 s"));
+            return Err(Error::new("at", action.at, "a number from 0 to 10000000 s"));
         }
         action.who.check(self.vehicles)?;
         action.effects.iter().try_for_each(|effect| effect.check(self.length))
@@ -220,14 +220,14 @@ impl Scenario {
     }
 
     /// d > C for every driver at every time, and a history that fits into memory.
-    fn check_drivers_through_time(&self) -> Result<(), Invalid> {
+    fn check_drivers_through_time(&self) -> Result<(), Error> {
         check_min_headway(&self.driver)?;
         let mut drivers = self.drivers();
         drivers.iter().try_for_each(check_min_headway)?;
         let mut longest = drivers.iter().map(|d| d.reaction_time).fold(0.0, f64::max);
         for (_, k) in self.actions_in_time() {
             let action = &self.actions[k];
-            let place = |e: Invalid| e.within(format!("actions[{}] “{action}”", k + 1));
+            let place = |e: Error| e.within(format!("actions[{}] “{action}”", k + 1));
             let sets: Vec<_> = action
                 .effects
                 .iter()
@@ -248,7 +248,7 @@ impl Scenario {
     }
 
     /// Whether the positions seen over the reaction time fit into memory.
-    pub(crate) fn check_history(&self, longest: f64) -> Result<(), Invalid> {
+    pub(crate) fn check_history(&self, longest: f64) -> Result<(), Error> {
         let bytes = 8.0 * self.vehicles as f64 * (longest / self.time_step).round();
         if bytes > HISTORY_LIMIT {
             let steps = HISTORY_LIMIT / (8.0 * self.vehicles as f64);
@@ -257,16 +257,16 @@ impl Scenario {
                 "at most {most} s for {} vehicles in steps of {} s: the history must fit 2 GiB",
                 self.vehicles, self.time_step
             );
-            return Err(Invalid::new("reaction-time", longest, allowed));
+            return Err(Error::new("reaction-time", longest, allowed));
         }
         Ok(())
     }
 
-    fn check_start(&self) -> Result<(), Invalid> {
+    fn check_start(&self) -> Result<(), Error> {
         let n = self.vehicles;
         match self.start {
             Start::OneLane(lane) if lane == 0 || lane > self.lanes => {
-                return Err(Invalid::new(
+                return Err(Error::new(
                     "start",
                     quoted(&self.start.to_string()),
                     format!("a lane from 1 to {}", self.lanes),
@@ -274,7 +274,7 @@ impl Scenario {
             }
             Start::OneLane(_) => {}
             _ if self.lanes > n => {
-                return Err(Invalid::new(
+                return Err(Error::new(
                     "lanes",
                     self.lanes,
                     format!("at most {n}: more lanes than vehicles can fill"),
@@ -282,7 +282,7 @@ impl Scenario {
             }
             Start::Staggered if !n.is_multiple_of(self.lanes) => {
                 let allowed = format!("a number that {} lanes divide, for a staggered start", self.lanes);
-                return Err(Invalid::new("vehicles", n, allowed));
+                return Err(Error::new("vehicles", n, allowed));
             }
             _ => {}
         }
@@ -301,7 +301,7 @@ impl Scenario {
                         self.length,
                         most(needed / count as f64)
                     );
-                    return Err(Invalid::new("vehicles", n, allowed));
+                    return Err(Error::new("vehicles", n, allowed));
                 }
             } else if count > 0 {
                 let headway = self.length / count as f64;
@@ -314,7 +314,7 @@ impl Scenario {
                             lane + 1,
                             (self.length / contact).ceil() - 1.0
                         );
-                        return Err(Invalid::new("vehicles", n, allowed));
+                        return Err(Error::new("vehicles", n, allowed));
                     }
                 }
             }
@@ -328,7 +328,7 @@ impl Scenario {
     }
 
     /// Reads JSON and validates.
-    pub fn from_json(text: &str) -> Result<Self, Invalid> {
+    pub fn from_json(text: &str) -> Result<Self, Error> {
         Object::read("scenario", text).and_then(|object| Self::from_object(&object))
     }
 
@@ -342,24 +342,24 @@ impl Scenario {
         object.insert("version", FORMAT);
         object.insert("start", self.start.to_string());
         object.insert("driver", driver);
-        object.insert("exceptions", self.exceptions.iter().map(Exception::to_string).collect::<Json>());
+        object.insert("exceptions", self.exceptions.iter().map(DriverOverride::to_string).collect::<Json>());
         object.insert("actions", self.actions.iter().map(Action::to_string).collect::<Json>());
         object.into()
     }
 
-    fn from_object(object: &Object) -> Result<Self, Invalid> {
+    fn from_object(object: &Object) -> Result<Self, Error> {
         let mut scenario = Self::default();
         for (name, value) in object.iter() {
             match name {
                 "version" if value.as_number() == Some(FORMAT as f64) => {}
-                "version" => return Err(Invalid::new("version", value, FORMAT.to_string())),
+                "version" => return Err(Error::new("version", value, FORMAT.to_string())),
                 "start" => {
-                    let text = value.as_text().ok_or_else(|| Invalid::new("start", value, "a text"))?;
+                    let text = value.as_text().ok_or_else(|| Error::new("start", value, "a text"))?;
                     scenario.start = text.parse()?;
                 }
                 "driver" => {
                     let Json::Object(driver) = value else {
-                        return Err(Invalid::new("driver", value, "a JSON object"));
+                        return Err(Error::new("driver", value, "a JSON object"));
                     };
                     for (name, value) in driver.iter() {
                         let parameter = PARAMETERS
@@ -391,12 +391,12 @@ pub(crate) fn assign(driver: &mut Driver, parameter: &Parameter, value: f64) {
     }
 }
 
-pub(crate) fn check_min_headway(driver: &Driver) -> Result<(), Invalid> {
+pub(crate) fn check_min_headway(driver: &Driver) -> Result<(), Error> {
     if driver.min_headway > driver.vehicle_length {
         Ok(())
     } else {
         let allowed = format!("more than the vehicle length, {} m", driver.vehicle_length);
-        Err(Invalid::new("min-headway", format!("{} m", driver.min_headway), allowed))
+        Err(Error::new("min-headway", format!("{} m", driver.min_headway), allowed))
     }
 }
 
@@ -406,23 +406,22 @@ impl Serialize for Scenario {
     }
 }
 
-fn read_number(parameter: &Parameter, value: &Json) -> Result<f64, Invalid> {
-    value.as_number().ok_or_else(|| Invalid::new(parameter.name, value, parameter.allowed()))
+fn read_number(parameter: &Parameter, value: &Json) -> Result<f64, Error> {
+    value.as_number().ok_or_else(|| Error::new(parameter.name, value, parameter.allowed()))
 }
 
-fn read_texts<T: FromStr<Err = Invalid>>(field: &'static str, value: &Json) -> Result<Vec<T>, Invalid> {
-    let list = value.as_list().ok_or_else(|| Invalid::new(field, value, "a list of texts"))?;
+fn read_texts<T: FromStr<Err = Error>>(field: &'static str, value: &Json) -> Result<Vec<T>, Error> {
+    let list = value.as_list().ok_or_else(|| Error::new(field, value, "a list of texts"))?;
     let one = |(k, item): (usize, &Json)| {
-        let text =
-            item.as_text().ok_or_else(|| Invalid::new(format!("{field}[{}]", k + 1), item, "a text"))?;
-        text.parse().map_err(|e: Invalid| e.within(format!("{field}[{}]", k + 1)))
+        let text = item.as_text().ok_or_else(|| Error::new(format!("{field}[{}]", k + 1), item, "a text"))?;
+        text.parse().map_err(|e: Error| e.within(format!("{field}[{}]", k + 1)))
     };
     list.iter().enumerate().map(one).collect()
 }
 
-fn unknown(name: &str, of_driver: bool, more: &str) -> Invalid {
+fn unknown(name: &str, of_driver: bool, more: &str) -> Error {
     let names: Vec<_> = PARAMETERS.iter().filter(|p| p.is_of_driver() == of_driver).map(|p| p.name).collect();
-    Invalid::new("field", quoted(name), format!("{}{more}", names.join(", ")))
+    Error::new("field", quoted(name), format!("{}{more}", names.join(", ")))
 }
 
 #[cfg(test)]

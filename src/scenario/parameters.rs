@@ -3,7 +3,7 @@
 //! The command's options, the link of the page, its sliders, the CSV header, validation and the reference
 //! documentation all come from [`PARAMETERS`]; a parameter is added here and nowhere else.
 
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
 use serde::Serialize;
@@ -153,7 +153,7 @@ impl Parameter {
     }
 
     /// Checks a value and writes it into the scenario (a driver's parameter: of the default driver).
-    pub fn set(&self, scenario: &mut Scenario, value: f64) -> Result<(), Invalid> {
+    pub fn set(&self, scenario: &mut Scenario, value: f64) -> Result<(), Error> {
         self.check(value)?;
         match self.scope {
             Scope::Road { set, .. } => set(scenario, value),
@@ -163,19 +163,19 @@ impl Parameter {
     }
 
     /// Whether the value alone is allowed; combinations are the scenario's to check.
-    pub fn check(&self, value: f64) -> Result<(), Invalid> {
+    pub fn check(&self, value: f64) -> Result<(), Error> {
         let inside = value >= self.min && value <= self.max;
         if inside && (!self.whole || value == value.trunc()) {
             Ok(())
         } else {
-            Err(Invalid::new(self.hyphenated(), value, self.allowed()))
+            Err(Error::new(self.hyphenated(), value, self.allowed()))
         }
     }
 
     /// Reads a value that a person wrote.
-    pub fn parse(&self, text: &str) -> Result<f64, Invalid> {
+    pub fn parse(&self, text: &str) -> Result<f64, Error> {
         let value =
-            text.trim().parse().map_err(|_| Invalid::new(self.hyphenated(), quoted(text), self.allowed()))?;
+            text.trim().parse().map_err(|_| Error::new(self.hyphenated(), quoted(text), self.allowed()))?;
         self.check(value).map(|()| value)
     }
 

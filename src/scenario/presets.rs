@@ -1,6 +1,6 @@
 //! Scenarios with names, each with what to notice and what to try next.
 
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::scenario::{Scenario, Start};
 use serde::Serialize;
 
@@ -35,11 +35,11 @@ fn lanes(vehicles: usize, lanes: usize, start: Start, frustration: (f64, f64)) -
 }
 
 fn action(text: &str) -> crate::scenario::action::Action {
-    text.parse().unwrap_or_else(|e: Invalid| panic!("{e}"))
+    text.parse().unwrap_or_else(|e: Error| panic!("{e}"))
 }
 
-fn exception(text: &str) -> crate::scenario::action::Exception {
-    text.parse().unwrap_or_else(|e: Invalid| panic!("{e}"))
+fn exception(text: &str) -> crate::scenario::action::DriverOverride {
+    text.parse().unwrap_or_else(|e: Error| panic!("{e}"))
 }
 
 /// Every preset, in the order in which people read them.
@@ -121,11 +121,11 @@ pub fn presets() -> Vec<Preset> {
 }
 
 /// The preset of that name.
-pub fn preset(name: &str) -> Result<Preset, Invalid> {
+pub fn preset(name: &str) -> Result<Preset, Error> {
     let mut all = presets();
     if let Some(k) = all.iter().position(|p| p.name == name) {
         return Ok(all.swap_remove(k));
     }
     let names: Vec<_> = all.iter().map(|p| p.name).collect();
-    Err(Invalid::new("preset", quoted(name), names.join(", ")))
+    Err(Error::new("preset", quoted(name), names.join(", ")))
 }

@@ -67,7 +67,7 @@ pub(crate) struct Scene<'a> {
 
 /// Gaps, shortfalls and speeds of all vehicles; padded to whole chunks with the first vehicles again.
 #[derive(Clone, Debug)]
-pub struct Following {
+pub struct CarFollowing {
     width: Width,
     vehicles: usize,
     state: State,
@@ -372,7 +372,7 @@ kernel! {
     }
 }
 
-impl Following {
+impl CarFollowing {
     /// For these drivers, in arrays padded to `padded` numbers; no shortfall is valid yet.
     pub fn new(drivers: &[Driver], padded: usize) -> Self {
         let filled = |value| Aligned::filled(value, padded);
@@ -549,7 +549,7 @@ mod tests {
                 for (dt, steps) in [(0.001, 1_000_000_u64), (0.01, 100_000), (0.5, 10_000)] {
                     for share in [1.0, 0.1] {
                         let drivers = [Driver { max_speed, sensitivity, ..Driver::default() }; COUNT];
-                        let mut following = Following::new(&drivers, COUNT);
+                        let mut following = CarFollowing::new(&drivers, COUNT);
                         let mut gap = [0.0; COUNT];
                         for step in 0..steps {
                             following.respond_to_gaps(&gap, &OFFSET, step.is_multiple_of(REFRESH));
@@ -591,7 +591,7 @@ mod tests {
     #[test]
     fn a_jump_is_evaluated_in_full_and_does_not_touch_the_others() {
         let driver = Driver::default();
-        let mut following = Following::new(&[driver; COUNT], COUNT);
+        let mut following = CarFollowing::new(&[driver; COUNT], COUNT);
         let mut gap = [0.0; COUNT];
         following.respond_to_gaps(&gap, &OFFSET, true);
         gap[3] = -12.0;
@@ -612,7 +612,7 @@ mod tests {
     #[test]
     fn another_leader_is_as_good_as_a_start() {
         let driver = Driver { sensitivity: 1.3, ..Driver::default() };
-        let mut one = Following::new(&[driver; 3], COUNT);
+        let mut one = CarFollowing::new(&[driver; 3], COUNT);
         one.respond_to_gaps(&[0.0; COUNT], &OFFSET, true);
         one.respond_to_another(1, 0.3, 17.0);
         let mut offset = OFFSET;
@@ -620,7 +620,7 @@ mod tests {
         for j in [1, 4, 7] {
             (offset[j], gap[j]) = (17.0, 0.3);
         }
-        let mut all = Following::new(&[driver; 3], COUNT);
+        let mut all = CarFollowing::new(&[driver; 3], COUNT);
         all.respond_to_gaps(&gap, &offset, true);
         assert_eq!(one.speeds(), all.speeds(), "images included");
     }
@@ -640,7 +640,7 @@ mod tests {
                 let offset: Vec<f64> = (0..n).map(|_| 20.0 + generator.uniform()).collect();
                 let offset: Vec<f64> = (0..padded).map(|j| image(&offset, j)).collect();
                 let (mut once, mut twice) =
-                    (Following::new(&drivers, padded), Following::new(&drivers, padded));
+                    (CarFollowing::new(&drivers, padded), CarFollowing::new(&drivers, padded));
                 let mut mask = Aligned::filled(0.0, padded);
                 for j in (1..padded).step_by(n) {
                     mask[j] = f64::from_bits(u64::MAX);

@@ -4,7 +4,7 @@
 //! P* = 1 − (1 − P)^dt. How attempts are drawn from it is told by [`crate::simulation::attempt_sampler`].
 
 use crate::numerics::simd::{CHUNK, Chunk, Real, chunks, chunks_mut, kernel};
-use crate::simulation::lane_order::AllBeside;
+use crate::simulation::lane_order::AdjacentLeaders;
 use std::f64::consts::FRAC_2_PI;
 
 /// P(φ), the probability of an attempt within one second.
@@ -46,7 +46,7 @@ pub(crate) struct Comparison<'a> {
     /// Displacements as they are seen, m.
     pub(crate) seen: &'a [f64],
     /// The leaders in the adjacent lanes.
-    pub(crate) beside: [&'a AllBeside; 2],
+    pub(crate) beside: [&'a AdjacentLeaders; 2],
     /// Offsets of the own leaders, m.
     pub(crate) offsets: &'a [f64],
     /// Gaps to them as they are seen, m.

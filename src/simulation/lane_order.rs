@@ -16,7 +16,7 @@ use crate::numerics::random::{Generator, Stream};
 use crate::numerics::simd::{Aligned, CHUNK, Width};
 use crate::scenario::{Scenario, Start};
 use crate::simulation::history::{images, padded};
-use crate::simulation::pass_detection::{NEAR, Odometer, Watch};
+use crate::simulation::pass_detection::{NEAR, PassDetection, TravelBounds};
 
 /// An adjacent lane: towards lane 1, or away from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,12 +46,12 @@ impl Side {
 /// Where there is none it is the vehicle itself with an infinite offset: +∞ for an empty lane, −∞ for no lane. So
 /// `offset + (s_i − s_j)` needs no case.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Beside {
+pub(crate) struct AdjacentLeader {
     vehicle: u32,
     offset: f64,
 }
 
-impl Beside {
+impl AdjacentLeader {
     /// The vehicle, if there is one.
     #[inline]
     pub(crate) fn vehicle(self) -> Option<usize> {
@@ -73,18 +73,18 @@ impl Beside {
     }
 }
 
-/// [`Beside`] of all vehicles on one side, padded with vehicles that have no lane there.
+/// [`AdjacentLeader`] of all vehicles on one side, padded with vehicles that have no lane there.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct AllBeside {
+pub(crate) struct AdjacentLeaders {
     /// The vehicles.
     pub(crate) vehicles: Vec<u32>,
     /// Their offsets, m.
     pub(crate) offsets: Aligned,
 }
 
-impl AllBeside {
+impl AdjacentLeaders {
     fn of(vehicles: usize) -> Self {
-        let none = (0..padded(vehicles)).map(Beside::no_lane);
+        let none = (0..padded(vehicles)).map(AdjacentLeader::no_lane);
         Self {
             vehicles: none.clone().map(|b| b.vehicle).collect(),
             offsets: Aligned::of(&none.map(|b| b.offset).collect::<Vec<_>>()),
@@ -101,7 +101,7 @@ pub(crate) struct Pass {
 
 /// The order of the vehicles.
 #[derive(Clone, Debug)]
-pub struct Ring {
+pub struct LaneOrder {
     length: f64,
     /// x⁰: positions at t = 0, unwrapped, m.
     start: Vec<f64>,
@@ -111,8 +111,8 @@ pub struct Ring {
     /// Offset of the leader: its headway at the start, for vehicles that still follow the same one.
     offset: Vec<f64>,
     /// On either side; nothing on one lane.
-    beside: [AllBeside; 2],
-    watch: Watch,
+    beside: [AdjacentLeaders; 2],
+    watch: PassDetection,
     /// Vehicles per lane.
     count: Vec<usize>,
     /// Some vehicle of each lane that has one.
@@ -121,7 +121,7 @@ pub struct Ring {
     in_order: bool,
 }
 
-impl Ring {
+impl LaneOrder {
     /// The start of a valid scenario, before any nudge. Beside is not known yet: see `find_beside`.
     pub fn new(scenario: &Scenario) -> Self {
         let n = scenario.vehicles;
@@ -134,8 +134,8 @@ impl Ring {
             ahead: Vec::with_capacity(n),
             behind: Vec::with_capacity(n),
             offset: Vec::with_capacity(n),
-            beside: [AllBeside::default(), AllBeside::default()],
-            watch: Watch::new(if scenario.lanes > 1 { n } else { 0 }),
+            beside: [AdjacentLeaders::default(), AdjacentLeaders::default()],
+            watch: PassDetection::new(if scenario.lanes > 1 { n } else { 0 }),
             member: vec![None; scenario.lanes],
             count,
             in_order: scenario.lanes == 1,
@@ -169,7 +169,7 @@ impl Ring {
             }
         }
         if scenario.lanes > 1 {
-            ring.beside = [AllBeside::of(n), AllBeside::of(n)];
+            ring.beside = [AdjacentLeaders::of(n), AdjacentLeaders::of(n)];
         }
         for image in n..padded(n) {
             ring.offset.push(ring.offset[image - n]);
@@ -245,20 +245,20 @@ impl Ring {
     }
     /// The next vehicle ahead in the adjacent lane on that side.
     #[inline]
-    pub(crate) fn beside(&self, j: usize, side: Side) -> Beside {
+    pub(crate) fn beside(&self, j: usize, side: Side) -> AdjacentLeader {
         let all = &self.beside[side as usize];
-        Beside { vehicle: all.vehicles[j], offset: all.offsets[j] }
+        AdjacentLeader { vehicle: all.vehicles[j], offset: all.offsets[j] }
     }
 
     #[inline]
-    fn set_beside(&mut self, j: usize, side: Side, found: Beside) {
+    fn set_beside(&mut self, j: usize, side: Side, found: AdjacentLeader) {
         let all = &mut self.beside[side as usize];
         (all.vehicles[j], all.offsets[j]) = (found.vehicle, found.offset);
     }
 
     /// The next vehicles ahead in the adjacent lanes, towards lane 1 and away from it, of all vehicles.
     #[inline]
-    pub(crate) fn all_beside(&self) -> [&AllBeside; 2] {
+    pub(crate) fn all_beside(&self) -> [&AdjacentLeaders; 2] {
         self.beside.each_ref()
     }
 
@@ -341,7 +341,7 @@ impl Ring {
                     // The one ahead of `next` is the one ahead of j, or ahead of that.
                     found = match found.vehicle() {
                         Some(i) => self.walk_ahead(next, i, found.distance(j, s) - self.headway(j, s), s),
-                        None => Beside::empty_lane(next),
+                        None => AdjacentLeader::empty_lane(next),
                     };
                     j = next;
                 }
@@ -357,12 +357,12 @@ impl Ring {
     }
 
     /// The next vehicle ahead of j in a lane, by looking at all of them.
-    fn search(&self, j: usize, lane: usize, s: &[f64]) -> Beside {
-        let mut best = Beside::empty_lane(j);
+    fn search(&self, j: usize, lane: usize, s: &[f64]) -> AdjacentLeader {
+        let mut best = AdjacentLeader::empty_lane(j);
         let Some(first) = self.member[lane] else { return best };
         let mut i = first;
         loop {
-            let seen = Beside { vehicle: i as u32, offset: self.offset_of(i, j, s) };
+            let seen = AdjacentLeader { vehicle: i as u32, offset: self.offset_of(i, j, s) };
             if seen.distance(j, s) < best.distance(j, s) {
                 best = seen;
             }
@@ -374,11 +374,11 @@ impl Ring {
     }
 
     /// The next vehicle ahead of j, at i or ahead of i, where i is about `about` metres ahead (negative: behind).
-    fn walk_ahead(&self, j: usize, mut i: usize, mut about: f64, s: &[f64]) -> Beside {
+    fn walk_ahead(&self, j: usize, mut i: usize, mut about: f64, s: &[f64]) -> AdjacentLeader {
         let lane = self.lane(i);
         for _ in 0..=2 * self.count[lane] {
             if let Some(offset) = self.offset_if_ahead(i, j, s, about) {
-                return Beside { vehicle: i as u32, offset };
+                return AdjacentLeader { vehicle: i as u32, offset };
             }
             about += self.headway(i, s);
             i = self.ahead(i);
@@ -389,7 +389,7 @@ impl Ring {
 
     /// Brings beside up to date after the vehicles have moved to the displacements `s`, and tells who was passed by
     /// whom, in order of the passed.
-    pub(crate) fn follow_motion(&mut self, odometer: Odometer, s: &[f64], passes: &mut Vec<Pass>) {
+    pub(crate) fn follow_motion(&mut self, odometer: TravelBounds, s: &[f64], passes: &mut Vec<Pass>) {
         let due = self.watch.take_due(s, odometer);
         for (k, &marks) in due.iter().enumerate() {
             let mut marks = marks;
@@ -417,7 +417,7 @@ impl Ring {
         side: Side,
         s: &[f64],
         mut pass: impl FnMut(usize),
-    ) -> Option<(Beside, [f64; 2])> {
+    ) -> Option<(AdjacentLeader, [f64; 2])> {
         let mut found = self.beside(j, side);
         let mut i = found.vehicle()?;
         let mut distance = found.distance(j, s);
@@ -435,7 +435,7 @@ impl Ring {
                 return Some((found, [distance, -about]));
             }
             // The one behind i was at most alongside; now it is looked at exactly.
-            let seen = Beside { vehicle: follower as u32, offset: self.offset_of(follower, j, s) };
+            let seen = AdjacentLeader { vehicle: follower as u32, offset: self.offset_of(follower, j, s) };
             let more_laps = ((about - seen.distance(j, s)) / self.length).round();
             if more_laps < 0.0 {
                 return Some((found, [0.0; 2]));
@@ -475,8 +475,8 @@ impl Ring {
         let leader = self.leave(m, s);
         self.enter(m, to, front, s);
         let left = match leader {
-            Some(i) => Beside { vehicle: i as u32, offset: self.offset_of(i, m, s) },
-            None => Beside::empty_lane(m),
+            Some(i) => AdjacentLeader { vehicle: i as u32, offset: self.offset_of(i, m, s) },
+            None => AdjacentLeader::empty_lane(m),
         };
         self.set_beside(m, side.opposite(), left);
         self.set_beside(m, side, self.find_in_far_lane(m, side, s));
@@ -501,9 +501,9 @@ impl Ring {
                     break;
                 }
                 let found = if leader == m {
-                    Beside::empty_lane(j)
+                    AdjacentLeader::empty_lane(j)
                 } else {
-                    Beside { vehicle: leader as u32, offset: self.offset_of(leader, j, s) }
+                    AdjacentLeader { vehicle: leader as u32, offset: self.offset_of(leader, j, s) }
                 };
                 self.set_beside(j, toward, found);
             }
@@ -516,7 +516,7 @@ impl Ring {
         let toward = side.opposite();
         let mut walk = self.back_from_beside(m, side);
         while let Some(j) = walk.step(&self.behind) {
-            let arrived = Beside { vehicle: m as u32, offset: self.offset_of(m, j, s) };
+            let arrived = AdjacentLeader { vehicle: m as u32, offset: self.offset_of(m, j, s) };
             if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
                 if walk.may_be_alongside() {
                     self.watch.look_at(j);
@@ -601,8 +601,8 @@ impl Ring {
     }
 
     /// The next vehicle ahead of m in the lane on that side, starting from what the vehicle behind m has beside it.
-    fn find_in_far_lane(&self, m: usize, side: Side, s: &[f64]) -> Beside {
-        let Some(lane) = self.lane_beside(m, side) else { return Beside::no_lane(m) };
+    fn find_in_far_lane(&self, m: usize, side: Side, s: &[f64]) -> AdjacentLeader {
+        let Some(lane) = self.lane_beside(m, side) else { return AdjacentLeader::no_lane(m) };
         let rear = self.behind(m);
         let hint = self.beside(rear, side);
         match hint.vehicle() {
@@ -612,7 +612,7 @@ impl Ring {
     }
 }
 
-/// Goes back in a lane; see [`Ring::back_from_beside`]. It holds no borrow: the next vehicle is asked for by
+/// Goes back in a lane; see [`LaneOrder::back_from_beside`]. It holds no borrow: the next vehicle is asked for by
 /// [`BackWalk::step`].
 struct BackWalk {
     next: usize,

@@ -31,19 +31,19 @@ pub mod history;
 pub mod lane_order;
 pub(crate) mod pass_detection;
 
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::numerics::random::{Generator, Stream};
 use crate::numerics::simd::{Aligned, CHUNK, Width};
-use crate::scenario::action::{Action, Effect, Who};
+use crate::scenario::action::{Action, Effect, VehicleSelector};
 use crate::scenario::driver::Driver;
 use crate::scenario::{Scenario, assign, check_min_headway};
 use crate::simulation::attempt_sampler::{ExponentialClock, Sampler};
-use crate::simulation::car_following::{Following, REFRESH, Scene};
+use crate::simulation::car_following::{CarFollowing, REFRESH, Scene};
 use crate::simulation::delays::{Delays, FEW};
 use crate::simulation::frustration::{Comparison, compare_quietly, compared};
 use crate::simulation::history::{History, padded};
-use crate::simulation::lane_order::{Pass, Ring, Side};
-use crate::simulation::pass_detection::Odometer;
+use crate::simulation::lane_order::{LaneOrder, Pass, Side};
+use crate::simulation::pass_detection::TravelBounds;
 use std::ops::Range;
 
 /// A reading that the odometer has always passed: look at once.
@@ -89,12 +89,12 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     step: u64,
     last_step: u64,
     drivers: Vec<Driver>,
-    ring: Ring,
+    ring: LaneOrder,
     history: History,
     /// The history looks farther back than anyone does any more.
     history_is_long: bool,
     delays: Delays,
-    following: Following,
+    following: CarFollowing,
     /// Gaps in the making.
     seen: Aligned,
     /// Sum of the nudges since the start, m.
@@ -114,40 +114,40 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     /// Actions still to come, the next one last: (step, place in the list).
     agenda: Vec<(u64, usize)>,
     width: Width,
-    odometer: Odometer,
+    odometer: TravelBounds,
     /// The largest maximum speed, m/s, and the length of the longest vehicle, m.
     fastest: f64,
     longest: f64,
     /// Until this step vehicles are too close for several steps at once.
     dense_until: u64,
     /// How far the fastest must have gone ahead of the slowest before two vehicles can touch, m: see
-    /// [`Odometer::apart`].
+    /// [`TravelBounds::apart`].
     clear_until: f64,
 }
 
 impl Simulation {
     /// The state of a scenario at t = 0, after the actions due then.
-    pub fn new(scenario: &Scenario) -> Result<Self, Invalid> {
+    pub fn new(scenario: &Scenario) -> Result<Self, Error> {
         Self::with_sampler(scenario)
     }
 }
 
 impl<S: Sampler> Simulation<S> {
     /// The same with a sampler of one's choice.
-    pub fn with_sampler(scenario: &Scenario) -> Result<Self, Invalid> {
+    pub fn with_sampler(scenario: &Scenario) -> Result<Self, Error> {
         scenario.validate()?;
         let n = scenario.vehicles;
         let drivers = scenario.drivers();
         let target = drivers.iter().map(|d| scenario.steps(d.reaction_time) as u32).collect();
         let delays = Delays::new(target);
-        let following = Following::new(&drivers, padded(n));
+        let following = CarFollowing::new(&drivers, padded(n));
         let mut agenda = scenario.actions_in_time();
         agenda.reverse();
         let events = if scenario.lanes > 1 { 64 + n.min(4096) } else { 1 };
         let mut simulation = Self {
             step: 0,
             last_step: scenario.last_step(),
-            ring: Ring::new(scenario),
+            ring: LaneOrder::new(scenario),
             history: History::new(n, delays.longest_target()),
             history_is_long: false,
             seen: Aligned::filled(0.0, padded(n)),
@@ -164,7 +164,7 @@ impl<S: Sampler> Simulation<S> {
             collision: None,
             agenda,
             width: Width::widest(),
-            odometer: Odometer::default(),
+            odometer: TravelBounds::default(),
             fastest: 0.0,
             longest: 0.0,
             dense_until: 0,
@@ -321,7 +321,7 @@ impl<S: Sampler> Simulation<S> {
         // Nobody goes farther in a step than this.
         let farthest = self.fastest * self.scenario.time_step;
         let room =
-            |clear_until: f64, odometer: Odometer| ((clear_until - odometer.apart()) / farthest) as u64;
+            |clear_until: f64, odometer: TravelBounds| ((clear_until - odometer.apart()) / farthest) as u64;
         let mut steps = room(self.clear_until, self.odometer);
         if steps < FEWEST_AT_ONCE {
             if self.step < self.dense_until {
@@ -614,10 +614,10 @@ impl<S: Sampler> Simulation<S> {
     /// Does something now: `at` becomes the present time, and the action is added to the scenario, so that a
     /// replay gives the same bits. A refused action changes nothing; after a collision every action is refused, since
     /// a replay would make it before.
-    pub fn act(&mut self, mut action: Action) -> Result<(), Invalid> {
+    pub fn act(&mut self, mut action: Action) -> Result<(), Error> {
         action.at = self.scenario.time_of(self.step);
         if self.collision.is_some() {
-            return Err(Invalid::new("action", quoted(&action.to_string()), "none after a collision"));
+            return Err(Error::new("action", quoted(&action.to_string()), "none after a collision"));
         }
         self.scenario.check_action(&action)?;
         let index = self.scenario.actions.len();
@@ -648,7 +648,8 @@ impl<S: Sampler> Simulation<S> {
     pub fn forget_replaced(&mut self) {
         let Some((last, before)) = self.scenario.actions.split_last() else { return };
         // A share is drawn by its place in the list, which therefore stays.
-        let first = before.iter().rposition(|a| matches!(a.who, Who::Share(_))).map_or(0, |k| k + 1);
+        let first =
+            before.iter().rposition(|a| matches!(a.who, VehicleSelector::Share(_))).map_or(0, |k| k + 1);
         let replaced = |&k: &usize| {
             self.scenario.steps(before[k].at) == self.step
                 && self.scenario.steps(last.at) == self.step
@@ -676,7 +677,7 @@ impl<S: Sampler> Simulation<S> {
     }
 
     /// Moves the end of the run, s.
-    pub fn set_until(&mut self, until: f64) -> Result<(), Invalid> {
+    pub fn set_until(&mut self, until: f64) -> Result<(), Error> {
         let parameter =
             crate::scenario::parameters::Parameter::named("until").expect("a parameter of the table");
         parameter.set(&mut self.scenario, until)?;

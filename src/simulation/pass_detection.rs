@@ -10,14 +10,14 @@ use crate::simulation::history::padded;
 
 /// How far vehicles may have come, summed over the steps, m.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Odometer {
+pub(crate) struct TravelBounds {
     slowest: f64,
     fastest: f64,
     apart: f64,
     steps: u32,
 }
 
-impl Odometer {
+impl TravelBounds {
     /// A step in which the slowest and the fastest vehicle have gone so far.
     #[inline]
     pub(crate) fn advance(&mut self, (slowest, fastest): (f64, f64)) {
@@ -49,7 +49,7 @@ const SURE: u32 = 1024;
 
 /// What is known of each vehicle; padded, where the padding is never due.
 #[derive(Clone, Debug)]
-pub(crate) struct Watch {
+pub(crate) struct PassDetection {
     width: Width,
     vehicles: usize,
     /// Due as soon as the vehicle has gone so far ahead of the slowest, m.
@@ -72,7 +72,7 @@ kernel! {
     }
 }
 
-impl Watch {
+impl PassDetection {
     /// For so many vehicles, all due.
     pub(crate) fn new(vehicles: usize) -> Self {
         let never = Aligned::filled(f64::INFINITY, padded(vehicles));
@@ -101,14 +101,14 @@ impl Watch {
     /// A vehicle at displacement `s` has been looked at: the nearest ones of the adjacent lanes are so far ahead of it
     /// and behind it, m.
     #[inline]
-    pub(crate) fn looked_at(&mut self, j: usize, s: f64, odometer: Odometer, [ahead, behind]: [f64; 2]) {
+    pub(crate) fn looked_at(&mut self, j: usize, s: f64, odometer: TravelBounds, [ahead, behind]: [f64; 2]) {
         // The factor and `NEAR` leave room for rounding.
         self.ahead[j] = (s - odometer.slowest) + 0.999 * (ahead - NEAR);
         self.behind[j] = (odometer.fastest - s) + 0.999 * (behind - NEAR);
     }
 
     /// Marks who is due at the displacements `s`, a bit a vehicle. The marks are lent: [`Self::give_back`].
-    pub(crate) fn take_due(&mut self, s: &[f64], odometer: Odometer) -> Vec<u8> {
+    pub(crate) fn take_due(&mut self, s: &[f64], odometer: TravelBounds) -> Vec<u8> {
         if odometer.steps.is_multiple_of(SURE) {
             self.look_at_all();
         }

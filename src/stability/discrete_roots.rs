@@ -7,14 +7,14 @@
 //! solved by bisection between the ends of the interval in which the triangle exists, where the left side goes to ∓∞. Only where
 //! w is negative can roots be real, and are found on the axis.
 
-use super::homogeneous::{EqualRing, Time};
+use super::homogeneous::{HomogeneousRing, Time};
 use crate::numerics::complex::{Complex64, arg, exp, ln, norm};
 use serde::Serialize;
 use std::f64::consts::PI;
 
 /// A root of a mode in the steps of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Factor {
+pub struct DiscreteRoot {
     /// q.
     pub mode: usize,
     /// k; of drivers that differ, the number at equal drivers, from which it was followed.
@@ -32,7 +32,7 @@ pub struct Factor {
     pub residual: f64,
 }
 
-impl Factor {
+impl DiscreteRoot {
     /// The root s (1/s) in steps of `time_step` seconds.
     pub fn new(mode: usize, branch: i32, s: Complex64, time_step: f64, residual: f64) -> Self {
         let z = exp(s * time_step);
@@ -48,14 +48,20 @@ impl Factor {
     }
 }
 
-impl EqualRing {
+impl HomogeneousRing {
     /// The `count` leading roots of a mode, all of them where there are fewer, for a delay of m steps of `time_step`
     /// seconds, by falling |z|. Both leading numbers and |z| go with the turn of z, so numbers up to ±`count` hold
     /// them all.
-    pub fn leading_factors(&self, q: usize, delay_steps: u64, time_step: f64, count: usize) -> Vec<Factor> {
+    pub fn leading_factors(
+        &self,
+        q: usize,
+        delay_steps: u64,
+        time_step: f64,
+        count: usize,
+    ) -> Vec<DiscreteRoot> {
         let (d, m) = (self.eigenvalue(q), delay_steps as f64);
         if d == Complex64::ZERO {
-            return vec![Factor::new(q, 0, d, time_step, 0.0)];
+            return vec![DiscreteRoot::new(q, 0, d, time_step, 0.0)];
         }
         let reach = count as i32;
         let mut roots: Vec<_> = (-reach..=reach)
@@ -67,7 +73,7 @@ impl EqualRing {
                 };
                 let z = exp(s * time_step);
                 let rest = (z - 1.0) / time_step - d * exp(-m * time_step * s);
-                Some(Factor::new(q, k, s, time_step, norm(rest) / norm(s).max(1.0)))
+                Some(DiscreteRoot::new(q, k, s, time_step, norm(rest) / norm(s).max(1.0)))
             })
             .collect();
         roots.sort_by(|a, b| b.real_per_s.total_cmp(&a.real_per_s));
@@ -153,13 +159,13 @@ mod tests {
         for (vehicles, slope) in [(50, 0.73), (13, 1.0), (2, 0.9), (3, 3.0)] {
             for m in [0, 1, 2, 3, 10, 75, 76] {
                 for time_step in [0.01, 0.1, 0.5] {
-                    let ring = EqualRing { vehicles, slope };
+                    let ring = HomogeneousRing { vehicles, slope };
                     for q in ring.modes() {
                         let roots = ring.leading_factors(q, m, time_step, 200);
                         let place = format!("N = {vehicles}, mode {q}, {m} steps of {time_step} s");
                         assert_eq!(roots.len() as u64, m + 1, "{place}");
                         let w = ring.eigenvalue(q) * time_step;
-                        let z = |f: &Factor| Complex64::new(f.factor_real, f.factor_imaginary);
+                        let z = |f: &DiscreteRoot| Complex64::new(f.factor_real, f.factor_imaginary);
                         let (mut sum, mut product) = (Complex64::ZERO, Complex64::ONE);
                         for (k, root) in roots.iter().enumerate() {
                             assert!(root.residual < 1e-10, "{place}: {root:?}");

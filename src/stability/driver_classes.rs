@@ -1,13 +1,13 @@
 //! What the linear theory asks of a lane: for every driver the slope of speed against headway in equilibrium, and
 //! the delay. Drivers who share both are one *kind*; their places on the ring do not enter.
 
-use super::homogeneous::EqualRing;
+use super::homogeneous::HomogeneousRing;
 use crate::numerics::exp::exp;
 use crate::scenario::driver::Driver;
 
 /// Drivers who are the same to the linear theory.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kind {
+pub struct DriverClass {
     /// How many.
     pub count: usize,
     /// c = dv/dh in equilibrium, 1/s.
@@ -20,25 +20,25 @@ pub struct Kind {
 ///
 /// Kinds are sorted, so that two rings with the same drivers in another order are equal to the last bit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ring {
-    kinds: Vec<Kind>,
+pub struct DriverClasses {
+    classes: Vec<DriverClass>,
     vehicles: usize,
 }
 
-impl Ring {
+impl DriverClasses {
     /// A ring of drivers given by slope (1/s) and delay (s).
     pub fn new(drivers: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let mut kinds: Vec<Kind> = Vec::new();
+        let mut classes: Vec<DriverClass> = Vec::new();
         let mut vehicles = 0;
         for (slope, delay) in drivers {
             vehicles += 1;
-            let order = |kind: &Kind| kind.slope.total_cmp(&slope).then(kind.delay.total_cmp(&delay));
-            match kinds.binary_search_by(order) {
-                Ok(place) => kinds[place].count += 1,
-                Err(place) => kinds.insert(place, Kind { count: 1, slope, delay }),
+            let order = |kind: &DriverClass| kind.slope.total_cmp(&slope).then(kind.delay.total_cmp(&delay));
+            match classes.binary_search_by(order) {
+                Ok(place) => classes[place].count += 1,
+                Err(place) => classes.insert(place, DriverClass { count: 1, slope, delay }),
             }
         }
-        Self { kinds, vehicles }
+        Self { classes, vehicles }
     }
 
     /// The drivers of a lane of `length` metres in equilibrium, each with the delay (s) in `delays`.
@@ -52,36 +52,36 @@ impl Ring {
     }
 
     /// The kinds, by rising slope, then delay.
-    pub fn kinds(&self) -> &[Kind] {
-        &self.kinds
+    pub fn classes(&self) -> &[DriverClass] {
+        &self.classes
     }
 
     /// The ring and the delay of drivers who are all alike.
-    pub fn equal(&self) -> Option<(EqualRing, f64)> {
-        match self.kinds.as_slice() {
-            [kind] => Some((EqualRing { vehicles: kind.count, slope: kind.slope }, kind.delay)),
+    pub fn equal(&self) -> Option<(HomogeneousRing, f64)> {
+        match self.classes.as_slice() {
+            [kind] => Some((HomogeneousRing { vehicles: kind.count, slope: kind.slope }, kind.delay)),
             _ => None,
         }
     }
 
     /// Whether nobody moves: all slopes are 0. A ring without vehicles counts as one.
     pub fn is_jammed(&self) -> bool {
-        self.kinds.iter().all(|kind| kind.slope <= 0.0)
+        self.classes.iter().all(|kind| kind.slope <= 0.0)
     }
 
     /// Mean delay, s; 0 without vehicles.
     pub fn mean_delay(&self) -> f64 {
-        let sum: f64 = self.kinds.iter().map(|kind| kind.count as f64 * kind.delay).sum();
+        let sum: f64 = self.classes.iter().map(|kind| kind.count as f64 * kind.delay).sum();
         sum / self.vehicles.max(1) as f64
     }
 
     /// The slope of equal drivers who would carry long waves as fast: the harmonic mean, 1/s.
     pub fn mean_slope(&self) -> f64 {
-        match self.kinds.as_slice() {
+        match self.classes.as_slice() {
             // Exactly, not up to rounding.
             [kind] => kind.slope,
-            kinds => {
-                let sum: f64 = kinds.iter().map(|kind| kind.count as f64 / kind.slope).sum();
+            classes => {
+                let sum: f64 = classes.iter().map(|kind| kind.count as f64 / kind.slope).sum();
                 if sum == 0.0 { 0.0 } else { self.vehicles as f64 / sum }
             }
         }
@@ -96,7 +96,7 @@ impl Ring {
         }
         let mean = self.mean_delay();
         let (mut squares, mut shares) = (0.0, 0.0);
-        for kind in &self.kinds {
+        for kind in &self.classes {
             let weight = kind.count as f64 / kind.slope;
             squares += 0.5 * weight / kind.slope;
             shares += weight * if mean > 0.0 { kind.delay / mean } else { 1.0 };
@@ -107,8 +107,9 @@ impl Ring {
     /// The same ring with other delays, each from the old.
     #[must_use]
     pub fn with_delays(&self, delay: impl Fn(f64) -> f64) -> Self {
-        let kinds = self.kinds.iter().map(|kind| Kind { delay: delay(kind.delay), ..*kind }).collect();
-        Self { kinds, vehicles: self.vehicles }
+        let classes =
+            self.classes.iter().map(|kind| DriverClass { delay: delay(kind.delay), ..*kind }).collect();
+        Self { classes, vehicles: self.vehicles }
     }
 }
 
@@ -195,10 +196,13 @@ mod tests {
 
     #[test]
     fn order_does_not_matter_to_the_last_bit() {
-        let ring = Ring::new([(1.0, 0.5), (0.7, 0.0), (1.0, 0.5), (0.7, 0.2)]);
-        assert_eq!(ring, Ring::new([(0.7, 0.2), (1.0, 0.5), (1.0, 0.5), (0.7, 0.0)]));
-        assert_eq!((ring.vehicles(), ring.kinds().len()), (4, 3));
+        let ring = DriverClasses::new([(1.0, 0.5), (0.7, 0.0), (1.0, 0.5), (0.7, 0.2)]);
+        assert_eq!(ring, DriverClasses::new([(0.7, 0.2), (1.0, 0.5), (1.0, 0.5), (0.7, 0.0)]));
+        assert_eq!((ring.vehicles(), ring.classes().len()), (4, 3));
         assert!((ring.mean_delay() - 0.3).abs() < 1e-15);
-        assert_eq!(Ring::new([(0.3, 1.0); 7]).equal().unwrap().0, EqualRing { vehicles: 7, slope: 0.3 });
+        assert_eq!(
+            DriverClasses::new([(0.3, 1.0); 7]).equal().unwrap().0,
+            HomogeneousRing { vehicles: 7, slope: 0.3 }
+        );
     }
 }

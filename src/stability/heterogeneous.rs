@@ -11,11 +11,11 @@
 //! corrections is tried again at half the length. Where two roots meet on the way (u = 0, or the derivative
 //! of the sum is 0), real parameters lead straight into the meeting; then the way is taken through complex ones.
 //!
-//! Nothing in that shows that no root was lost, so [`Ring::unstable_roots`] counts those with Re s > 0 by the
+//! Nothing in that shows that no root was lost, so [`DriverClasses::unstable_roots`] counts those with Re s > 0 by the
 //! argument principle.
 
-use super::driver_classes::Ring;
-use super::homogeneous::{EqualRing, Mode, Time, dominant_root};
+use super::driver_classes::DriverClasses;
+use super::homogeneous::{HomogeneousRing, Mode, Time, dominant_root};
 use crate::numerics::complex::{Complex64, arg, exp, exp_m1, ln, ln_1p, norm};
 use crate::numerics::lambert_w::lambert_w;
 use std::f64::consts::PI;
@@ -197,27 +197,27 @@ impl Followed {
 /// Rings larger than this are followed in a choice of modes only, and not counted.
 pub const ALL_MODES: usize = 1000;
 
-impl Ring {
+impl DriverClasses {
     /// Slopes far below all that matters are held above 0, so that their logarithms exist.
     fn paths(&self) -> (Vec<Path>, f64, f64) {
         let n = self.vehicles() as f64;
         let log = |slope: f64| -libm::log(slope.max(1e-300));
-        let mean_log = self.kinds().iter().map(|k| k.count as f64 * log(k.slope)).sum::<f64>() / n;
+        let mean_log = self.classes().iter().map(|k| k.count as f64 * log(k.slope)).sum::<f64>() / n;
         let tau = self.mean_delay();
-        let path = |kind: &super::driver_classes::Kind| Path {
+        let path = |kind: &super::driver_classes::DriverClass| Path {
             count: kind.count as f64,
             log_start: mean_log,
             log_change: log(kind.slope) - mean_log,
             share_change: if tau > 0.0 { kind.delay / tau - 1.0 } else { 0.0 },
         };
-        (self.kinds().iter().map(path).collect(), crate::numerics::exp::exp(-mean_log), tau)
+        (self.classes().iter().map(path).collect(), crate::numerics::exp::exp(-mean_log), tau)
     }
 
     /// |Π u_j − 1| at s, as the distance of s from where it vanishes, 1/s.
     pub fn residual(&self, s: Complex64, time: Time) -> f64 {
         let (g, slope) = time.derivative(s);
         let (mut sum, mut by_s) = (Complex64::ZERO, Complex64::ZERO);
-        for kind in self.kinds() {
+        for kind in self.classes() {
             let (n, y) = (kind.count as f64, exp(s * kind.delay) / kind.slope);
             sum += n * ln_1p(g * y);
             by_s += n * y * (slope + g * kind.delay) / (1.0 + g * y);
@@ -241,7 +241,7 @@ impl Ring {
         k: i32,
         time: Time,
     ) -> Option<Complex64> {
-        let mean = EqualRing { vehicles: self.vehicles(), slope };
+        let mean = HomogeneousRing { vehicles: self.vehicles(), slope };
         let d = mean.eigenvalue(q);
         let start = if k == 0 {
             dominant_root(d, tau, time)
@@ -358,7 +358,7 @@ impl Ring {
     /// Mean delay (s) at which the root of mode q crosses the imaginary axis.
     fn crossing(&self, q: usize, time: Time) -> Option<f64> {
         let (paths, slope, _) = self.paths();
-        let mean = EqualRing { vehicles: self.vehicles(), slope };
+        let mean = HomogeneousRing { vehicles: self.vehicles(), slope };
         let tau = mean.critical_of(q, time);
         if tau <= 0.0 || !tau.is_finite() {
             return None;
@@ -393,7 +393,7 @@ impl Ring {
         if self.is_jammed() || self.vehicles() < 2 {
             return Some(0);
         }
-        let largest = self.kinds().last().map_or(0.0, |kind| kind.slope);
+        let largest = self.classes().last().map_or(0.0, |kind| kind.slope);
         // |g(s)| ≥ (2/π)|s| in the strip.
         let radius = match time {
             Time::Continuous => 3.0 * largest,
@@ -463,7 +463,7 @@ impl Ring {
         let (g, slope) = time.derivative(s);
         let log_g = ln(g);
         let (mut sum, mut by_s) = (Complex64::ZERO, Complex64::ZERO);
-        for kind in self.kinds() {
+        for kind in self.classes() {
             let inverse = 1.0 / kind.slope.max(1e-300);
             let log_y = s * kind.delay;
             let n = kind.count as f64;

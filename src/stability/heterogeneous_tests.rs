@@ -13,9 +13,9 @@ fn default_slope() -> f64 {
 }
 
 /// `calm` drivers without delay among 50 with 0.75 s.
-fn calmed(calm: usize) -> Ring {
+fn calmed(calm: usize) -> DriverClasses {
     let c = default_slope();
-    Ring::new((0..50).map(|j| (c, if j < calm { 0.0 } else { 0.75 })))
+    DriverClasses::new((0..50).map(|j| (c, if j < calm { 0.0 } else { 0.75 })))
 }
 
 /// Largest |z| ≠ 1 of the whole difference system, drivers in the order given: x_j(n + 1) =
@@ -53,7 +53,7 @@ fn followed_roots_dominate_the_whole_system_in_any_order() {
     for seed in 0..40 {
         let vehicles = 2 + seed as usize % 7;
         let mut drivers = random_drivers(seed, vehicles, 6);
-        let ring = Ring::new(drivers.iter().map(|&(c, m)| (c, m as f64 * dt)));
+        let ring = DriverClasses::new(drivers.iter().map(|&(c, m)| (c, m as f64 * dt)));
         let fastest = ring.fastest(Time::Steps(dt)).unwrap();
         let size = crate::numerics::exp::exp(fastest.root.re * dt);
         for order in 0..3 {
@@ -71,7 +71,7 @@ fn without_delay_the_roots_are_the_eigenvalues_of_the_jacobian() {
     for seed in 0..10 {
         let slopes: Vec<_> = random_drivers(seed, 12, 0).into_iter().map(|d| d.0).collect();
         let numeric = jacobian::eigenvalues(jacobian::jacobian(&slopes)).unwrap();
-        let ring = Ring::new(slopes.iter().map(|&c| (c, 0.0)));
+        let ring = DriverClasses::new(slopes.iter().map(|&c| (c, 0.0)));
         let followed = ring.followed(Time::Continuous);
         assert_eq!(followed.modes.len(), 6);
         for mode in followed.modes {
@@ -85,8 +85,8 @@ fn equal_drivers_come_back_as_a_special_case() {
     // A difference too small to matter takes the general way.
     for delay in [0.0, 0.3, 0.75, 1.2] {
         let c = default_slope();
-        let nearly = Ring::new((0..50).map(|j| (c * (1.0 + f64::from(j % 2) * 1e-13), delay)));
-        let exact = EqualRing { vehicles: 50, slope: c };
+        let nearly = DriverClasses::new((0..50).map(|j| (c * (1.0 + f64::from(j % 2) * 1e-13), delay)));
+        let exact = HomogeneousRing { vehicles: 50, slope: c };
         for time in [Time::Continuous, Time::Steps(DT)] {
             assert!(nearly.equal().is_none());
             let mut modes = nearly.followed(time).modes;
@@ -112,13 +112,13 @@ fn the_count_finds_every_unstable_root() {
     for (vehicles, slope, delay) in
         [(2, 1.0, 5.0), (7, 0.8, 3.0), (50, 0.731_616, 0.75), (50, 0.7, 0.6), (50, 1.0, 9.0)]
     {
-        let ring = EqualRing { vehicles, slope };
+        let ring = HomogeneousRing { vehicles, slope };
         let mut expected = 0;
         for q in 1..vehicles {
             let d = ring.eigenvalue(q);
             expected += (-60..=60).filter(|&k| lambert_w(k, d * delay).re > 0.0).count();
         }
-        let counted = Ring::new(vec![(slope, delay); vehicles]).unstable_roots(Time::Continuous);
+        let counted = DriverClasses::new(vec![(slope, delay); vehicles]).unstable_roots(Time::Continuous);
         assert_eq!(counted, Some(expected), "{ring:?} {delay}");
     }
 }
@@ -127,7 +127,7 @@ fn the_count_finds_every_unstable_root() {
 fn no_unstable_root_is_lost() {
     for seed in 0..60 {
         let drivers = random_drivers(seed, 3 + 2 * seed as usize % 48, 90);
-        let ring = Ring::new(drivers.iter().map(|&(c, m)| (c, m as f64 * DT)));
+        let ring = DriverClasses::new(drivers.iter().map(|&(c, m)| (c, m as f64 * DT)));
         for time in [Time::Continuous, Time::Steps(DT)] {
             let followed = ring.followed(time);
             assert_eq!(Some(followed.unstable), followed.counted, "seed {seed}, {time:?}");
@@ -152,7 +152,7 @@ fn five_calm_drivers_calm_the_ring_and_four_do_not() {
 fn the_critical_delay_is_where_the_largest_real_part_vanishes() {
     let rings = (0..20).map(|seed| {
         let drivers = random_drivers(seed, 3 + seed as usize, 90);
-        Ring::new(drivers.iter().map(|&(c, m)| (c, m as f64 * DT)))
+        DriverClasses::new(drivers.iter().map(|&(c, m)| (c, m as f64 * DT)))
     });
     for ring in rings.chain([calmed(3), calmed(10), calmed(40)]) {
         for time in [Time::Continuous, Time::Steps(DT)] {
@@ -168,7 +168,7 @@ fn the_critical_delay_is_where_the_largest_real_part_vanishes() {
 /// For long waves and equal slopes it is the mean delay that must stay below 1/(2c).
 #[test]
 fn the_mean_delay_decides_for_long_waves() {
-    let ring = Ring::new((0..2000).map(|j| (1.0, if j % 4 == 0 { 0.0 } else { 0.6 })));
+    let ring = DriverClasses::new((0..2000).map(|j| (1.0, if j % 4 == 0 { 0.0 } else { 0.6 })));
     assert!((ring.crossing(1, Time::Continuous).unwrap() - 0.5).abs() < 1e-6);
     // With delays so different, shorter waves are less stable still.
     assert!(ring.critical(Time::Continuous) < 0.49);
@@ -177,16 +177,16 @@ fn the_mean_delay_decides_for_long_waves() {
 /// The longest wave of a large ring is critical at Newell's limit, also where slopes and delays differ.
 #[test]
 fn long_waves_have_newells_limit() {
-    let ring = Ring::new((0..4000).map(|j| if j % 3 == 0 { (1.4, 0.9) } else { (0.6, 0.5) }));
+    let ring = DriverClasses::new((0..4000).map(|j| if j % 3 == 0 { (1.4, 0.9) } else { (0.6, 0.5) }));
     let limit = ring.newell_limit();
     assert!((ring.crossing(1, Time::Continuous).unwrap() - limit).abs() < 1e-5, "{limit}");
-    assert_eq!(Ring::new([(0.8, 1.0); 9]).newell_limit(), 0.625);
+    assert_eq!(DriverClasses::new([(0.8, 1.0); 9]).newell_limit(), 0.625);
 }
 
 #[test]
 fn large_rings_find_the_fastest_mode_among_a_choice() {
     let drivers = |n: usize| (0..n).map(move |j| (0.9, if j * 10 < n { 0.0 } else { 0.8 }));
-    let ring = Ring::new(drivers(3000));
+    let ring = DriverClasses::new(drivers(3000));
     let (paths, slope, tau) = ring.paths();
     let all = (1..=1500).filter_map(|q| ring.follow_along(&paths, slope, tau, q, 0, Time::Steps(DT)));
     let largest = all.map(|s| s.re).fold(f64::NEG_INFINITY, f64::max);
@@ -197,7 +197,7 @@ fn large_rings_find_the_fastest_mode_among_a_choice() {
 fn a_slow_leader_on_a_long_road_leaves_nothing_that_grows() {
     let mut drivers = vec![Driver::default(); 10];
     drivers[0].max_speed = 5.0;
-    let ring = Ring::of(&drivers, vec![0.3; 10], 1000.0);
+    let ring = DriverClasses::of(&drivers, vec![0.3; 10], 1000.0);
     let followed = ring.followed(Time::Continuous);
     assert_eq!(followed.counted, Some(0));
     assert_eq!(followed.unstable, 0);

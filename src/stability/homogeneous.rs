@@ -52,14 +52,14 @@ pub struct Root {
 
 /// N equal drivers in one lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EqualRing {
+pub struct HomogeneousRing {
     /// N.
     pub vehicles: usize,
     /// c = dv/dh in equilibrium, 1/s.
     pub slope: f64,
 }
 
-impl EqualRing {
+impl HomogeneousRing {
     /// The modes, 1 … ⌊N/2⌋.
     pub fn modes(&self) -> std::ops::RangeInclusive<usize> {
         1..=self.vehicles / 2

@@ -4,8 +4,8 @@ use super::*;
 use crate::numerics::complex::norm;
 use crate::scenario::driver::Driver;
 
-fn default_ring(vehicles: usize) -> EqualRing {
-    EqualRing { vehicles, slope: Driver::default().slope(1000.0 / vehicles as f64) }
+fn default_ring(vehicles: usize) -> HomogeneousRing {
+    HomogeneousRing { vehicles, slope: Driver::default().slope(1000.0 / vehicles as f64) }
 }
 
 /// The values of the model's specification.
@@ -27,7 +27,7 @@ fn known_values() {
 fn every_root_satisfies_its_equation_and_the_principal_branch_dominates() {
     for vehicles in [2, 3, 4, 7, 25, 50, 133] {
         for slope in [0.05, 0.731_616, 1.0, 6.0] {
-            let ring = EqualRing { vehicles, slope };
+            let ring = HomogeneousRing { vehicles, slope };
             for delay in [0.01, 0.1, 0.3, 0.5, 0.683_869, 1.0, 3.0] {
                 for q in ring.modes() {
                     let principal = ring.root_on(q, 0, delay);
@@ -61,7 +61,7 @@ fn leading_roots_come_by_falling_real_part() {
 }
 
 /// The reaction time at which the largest real part passes 0, by bisection.
-fn critical_by_roots(ring: &EqualRing, time: Time) -> f64 {
+fn critical_by_roots(ring: &HomogeneousRing, time: Time) -> f64 {
     let (mut low, mut high) = (1e-6, 20.0 / ring.slope);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
@@ -75,7 +75,7 @@ fn critical_by_roots(ring: &EqualRing, time: Time) -> f64 {
 fn the_roots_cross_the_axis_where_the_closed_form_says() {
     for vehicles in [2, 3, 4, 5, 10, 25, 50, 133] {
         for slope in [0.1, 0.731_616, 1.0, 2.0] {
-            let ring = EqualRing { vehicles, slope };
+            let ring = HomogeneousRing { vehicles, slope };
             for time in [Time::Continuous, Time::Steps(0.01), Time::Steps(0.1), Time::Steps(0.3)] {
                 let (exact, numeric) = (ring.critical(time), critical_by_roots(&ring, time));
                 assert!((exact - numeric).abs() < 1e-9, "{ring:?}, {time:?}: {exact} and {numeric}");
@@ -101,7 +101,7 @@ fn the_dominant_root_in_steps_is_the_largest_of_the_difference_equation() {
     for dt in [0.01, 0.05, 0.2, 0.5] {
         for slope in [0.05, 0.731_616, 2.0, 5.0, 20.0] {
             for vehicles in [2, 3, 5, 50] {
-                let ring = EqualRing { vehicles, slope };
+                let ring = HomogeneousRing { vehicles, slope };
                 for m in [0, 1, 2, 3, 7, 20] {
                     for q in ring.modes().step_by(7) {
                         let d = ring.eigenvalue(q);
@@ -125,7 +125,7 @@ fn the_dominant_root_in_steps_is_the_largest_of_the_difference_equation() {
 fn the_fastest_mode_is_the_fastest_of_all() {
     for vehicles in [2, 3, 4, 5, 9, 50, 133, 400] {
         for slope in [0.02, 0.3, 0.731_616, 1.0, 3.0, 20.0] {
-            let ring = EqualRing { vehicles, slope };
+            let ring = HomogeneousRing { vehicles, slope };
             for time in [Time::Continuous, Time::Steps(0.01), Time::Steps(0.1), Time::Steps(0.5)] {
                 for steps in 0..40 {
                     let delay = match time {
@@ -151,13 +151,13 @@ fn limits() {
     let dense = default_ring(133);
     assert!((dense.slope - 1.0).abs() < 1e-3);
     assert!((dense.critical(Time::Continuous) - 0.5).abs() < 1e-3);
-    let infinite = EqualRing { vehicles: 1_000_000, slope: 1.0 };
+    let infinite = HomogeneousRing { vehicles: 1_000_000, slope: 1.0 };
     assert!((infinite.critical(Time::Continuous) - infinite.newell_limit()).abs() < 1e-11);
     // N = 2: a = π/2, d = −2c, τ = π/(4c). N = 3: a = π/3, τ = π/(3√3·c).
-    let two = EqualRing { vehicles: 2, slope: 0.5 };
+    let two = HomogeneousRing { vehicles: 2, slope: 0.5 };
     assert_eq!(two.eigenvalue(1), Complex64::new(-1.0, 0.0));
     assert!((two.critical(Time::Continuous) - PI / 2.0).abs() < 1e-15);
-    let three = EqualRing { vehicles: 3, slope: 0.5 };
+    let three = HomogeneousRing { vehicles: 3, slope: 0.5 };
     assert!((three.critical(Time::Continuous) - PI / (3.0 * libm::sqrt(3.0) * 0.5)).abs() < 1e-15);
     // Without delay the roots are the eigenvalues, all on the left.
     for q in dense.modes() {
@@ -171,14 +171,14 @@ fn limits() {
     assert_eq!(jam.root(1, 5.0, Time::Steps(0.01)), Complex64::ZERO);
     assert!(jam.fastest(5.0, Time::Continuous).is_none());
     // A vehicle alone has no modes.
-    let alone = EqualRing { vehicles: 1, slope: 1.0 };
+    let alone = HomogeneousRing { vehicles: 1, slope: 1.0 };
     assert_eq!(alone.critical(Time::Steps(0.01)), f64::INFINITY);
     assert!(alone.fastest(1.0, Time::Continuous).is_none());
 }
 
 #[test]
 fn steps_too_long_for_the_slope_are_unstable_at_any_delay() {
-    let ring = EqualRing { vehicles: 50, slope: 3.0 };
+    let ring = HomogeneousRing { vehicles: 50, slope: 3.0 };
     assert_eq!(ring.critical(Time::Steps(0.5)), 0.0);
     assert!(ring.fastest(0.0, Time::Steps(0.5)).unwrap().root.re > 0.0);
     assert!(ring.fastest(0.0, Time::Steps(0.3)).unwrap().root.re < 0.0);

@@ -33,7 +33,7 @@ pub fn eigenvalues(matrix: DMatrix<f64>) -> Option<Vec<Complex64>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::homogeneous::EqualRing;
+    use super::super::homogeneous::HomogeneousRing;
     use super::*;
     use crate::numerics::complex::norm;
 
@@ -41,7 +41,7 @@ mod tests {
     #[test]
     fn numerical_eigenvalues_are_the_closed_form() {
         for vehicles in (2..=20).chain([25, 33, 50, 64, 100, 128, 133]) {
-            let ring = EqualRing { vehicles, slope: 0.731_616 };
+            let ring = HomogeneousRing { vehicles, slope: 0.731_616 };
             let mut numeric = eigenvalues(jacobian(&vec![ring.slope; vehicles])).unwrap();
             assert_eq!(numeric.len(), vehicles - 1);
             for q in 1..vehicles {
@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn the_proposition() {
         for vehicles in 2..=133 {
-            let ring = EqualRing { vehicles, slope: 1.0 };
+            let ring = HomogeneousRing { vehicles, slope: 1.0 };
             for q in 1..vehicles {
                 let one_less = 1.0 + ring.eigenvalue(q);
                 let sum = (0..vehicles).fold(Complex64::ZERO, |sum, _| sum * one_less + 1.0);

@@ -1,8 +1,8 @@
 //! The verdict on a scenario, or on traffic as it is now: what `ringroad stability` prints and what the page's verdict
 //! line speaks from.
 
-use super::discrete_roots::Factor;
-use super::driver_classes::Ring;
+use super::discrete_roots::DiscreteRoot;
+use super::driver_classes::DriverClasses;
 use super::homogeneous::{Mode, Time};
 use crate::numerics::complex::{Complex64, norm};
 use crate::scenario::Scenario;
@@ -135,7 +135,7 @@ struct Growth {
     all_found: Option<bool>,
 }
 
-fn growth(ring: &Ring, time: Time) -> Growth {
+fn growth(ring: &DriverClasses, time: Time) -> Growth {
     if let Some((equal, delay)) = ring.equal() {
         // By the closed form rather than by the sign of a root that rounding decides at the threshold.
         let stable = delay < equal.critical(time);
@@ -170,7 +170,7 @@ pub fn leading_roots(scenario: &Scenario, lane: usize, count: usize) -> Vec<Mode
 }
 
 /// The same of the simulation: its `count` leading growth factors for every mode, by falling modulus.
-pub fn leading_factors(scenario: &Scenario, lane: usize, count: usize) -> Vec<Factor> {
+pub fn leading_factors(scenario: &Scenario, lane: usize, count: usize) -> Vec<DiscreteRoot> {
     let lane = lanes_of(scenario).swap_remove(lane);
     let dt = scenario.time_step;
     let (_, ring) = rings(&lane, scenario.length, dt);
@@ -182,13 +182,13 @@ pub fn leading_factors(scenario: &Scenario, lane: usize, count: usize) -> Vec<Fa
     let time = Time::Steps(dt);
     let of_mode = |q: usize| {
         let reach = count as i32;
-        let mut roots: Vec<Factor> = Vec::new();
+        let mut roots: Vec<DiscreteRoot> = Vec::new();
         // From the middle outwards: z knows no turns beyond a half, so what comes round again is not a new root.
         for k in (0..=reach).flat_map(|k| if k == 0 { vec![0] } else { vec![-k, k] }) {
             let Some(s) = ring.follow(q, k, time).filter(|s| (s.im * dt).abs() < PI + 1e-9) else { continue };
-            let root = Factor::new(q, k, s, dt, ring.residual(s, time) / norm(s).max(1.0));
+            let root = DiscreteRoot::new(q, k, s, dt, ring.residual(s, time) / norm(s).max(1.0));
             let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
-            let known = |r: &Factor| {
+            let known = |r: &DiscreteRoot| {
                 near(r.factor_real, root.factor_real) && near(r.factor_imaginary, root.factor_imaginary)
             };
             if !roots.iter().any(known) {
@@ -202,7 +202,7 @@ pub fn leading_factors(scenario: &Scenario, lane: usize, count: usize) -> Vec<Fa
     modes.flat_map(of_mode).collect()
 }
 
-fn roots_of_modes(ring: &Ring, modes: impl Iterator<Item = usize>, count: usize) -> Vec<ModeRoot> {
+fn roots_of_modes(ring: &DriverClasses, modes: impl Iterator<Item = usize>, count: usize) -> Vec<ModeRoot> {
     let root = |mode: usize, branch: i32, s: Complex64, residual: f64| ModeRoot {
         mode,
         branch,
@@ -275,15 +275,15 @@ pub fn roots_of_lane(lane: &Lane, length: f64, time_step: f64, others: usize, mo
 }
 
 /// Whether no disturbance grows.
-pub(super) fn is_stable(ring: &Ring, time: Time) -> bool {
+pub(super) fn is_stable(ring: &DriverClasses, time: Time) -> bool {
     growth(ring, time).stable
 }
 
 /// A lane as the theory sees it in continuous time, and in steps.
-fn rings(lane: &Lane, length: f64, time_step: f64) -> (Ring, Ring) {
-    let continuous = Ring::of(&lane.drivers, lane.drivers.iter().map(|d| d.reaction_time), length);
+fn rings(lane: &Lane, length: f64, time_step: f64) -> (DriverClasses, DriverClasses) {
+    let continuous = DriverClasses::of(&lane.drivers, lane.drivers.iter().map(|d| d.reaction_time), length);
     let delays = lane.delay_steps.iter().map(|&m| m as f64 * time_step);
-    (continuous, Ring::of(&lane.drivers, delays, length))
+    (continuous, DriverClasses::of(&lane.drivers, delays, length))
 }
 
 /// Four significant digits, or whole numbers where these are longer.

@@ -2,9 +2,9 @@
 //! the map of the largest growth rate over number and reaction time. And tables of what theory says of a scenario while
 //! a parameter is swept.
 
-use super::homogeneous::{EqualRing, Time};
+use super::homogeneous::{HomogeneousRing, Time};
 use super::report::Report;
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::format::table::{Column, Table};
 use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
@@ -12,7 +12,7 @@ use crate::scenario::parameters::{PARAMETERS, Parameter};
 
 /// A lane that any number of equal drivers may share.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plane {
+pub struct StabilityDiagram {
     /// Every driver; the reaction time plays no part.
     pub driver: Driver,
     /// L, m.
@@ -34,14 +34,14 @@ pub struct Curves {
     pub newell_s: Vec<Option<f64>>,
 }
 
-impl Plane {
+impl StabilityDiagram {
     /// The plane of a scenario's default driver.
     pub fn of(scenario: &Scenario) -> Self {
         Self { driver: scenario.driver, length: scenario.length, time_step: scenario.time_step }
     }
 
-    fn ring(&self, vehicles: usize) -> EqualRing {
-        EqualRing { vehicles, slope: self.driver.slope(self.length / vehicles as f64) }
+    fn ring(&self, vehicles: usize) -> HomogeneousRing {
+        HomogeneousRing { vehicles, slope: self.driver.slope(self.length / vehicles as f64) }
     }
 
     /// Steps or continuous time.
@@ -68,13 +68,13 @@ impl Plane {
     /// The curves of the plane.
     pub fn curves(&self, vehicles: impl IntoIterator<Item = usize>) -> Curves {
         let vehicles: Vec<_> = vehicles.into_iter().collect();
-        let column = |of: &dyn Fn(&EqualRing) -> f64| {
+        let column = |of: &dyn Fn(&HomogeneousRing) -> f64| {
             let finite = |&n: &usize| Some(of(&self.ring(n))).filter(|x| x.is_finite());
             vehicles.iter().map(finite).collect()
         };
         let continuous_s = column(&|ring| ring.critical(Time::Continuous));
         let discrete_s = column(&|ring| ring.critical(Time::Steps(self.time_step)));
-        let newell_s = column(&EqualRing::newell_limit);
+        let newell_s = column(&HomogeneousRing::newell_limit);
         Curves { vehicles, continuous_s, discrete_s, newell_s }
     }
 
@@ -118,10 +118,10 @@ pub struct Sweep {
 const MOST_VALUES: f64 = 100_000.0;
 
 impl std::str::FromStr for Sweep {
-    type Err = Invalid;
-    fn from_str(text: &str) -> Result<Self, Invalid> {
+    type Err = Error;
+    fn from_str(text: &str) -> Result<Self, Error> {
         let form = || {
-            Invalid::new(
+            Error::new(
                 "sweep",
                 quoted(text),
                 "PARAMETER=FROM:TO or PARAMETER=FROM:TO:STEP, such as vehicles=2:133",
@@ -130,7 +130,7 @@ impl std::str::FromStr for Sweep {
         let (name, range) = text.split_once('=').ok_or_else(form)?;
         let parameter = Parameter::named(name.trim()).ok_or_else(|| {
             let names: Vec<_> = PARAMETERS.iter().map(Parameter::hyphenated).collect();
-            Invalid::new("parameter", quoted(name), names.join(", "))
+            Error::new("parameter", quoted(name), names.join(", "))
         })?;
         let parts: Vec<_> = range.split(':').collect();
         let (from, to, step) = match parts[..] {
@@ -142,7 +142,7 @@ impl std::str::FromStr for Sweep {
         let given = step.map(|step| step.trim().parse().map_err(|_| form())).transpose()?;
         if let Some(step) = given.filter(|step| parameter.whole && *step != f64::trunc(*step)) {
             let allowed = format!("a whole step: {} is a whole number", parameter.hyphenated());
-            return Err(Invalid::new("step", step, allowed));
+            return Err(Error::new("step", step, allowed));
         }
         if from == to {
             return Ok(Self { parameter, values: vec![from] });
@@ -153,18 +153,16 @@ impl std::str::FromStr for Sweep {
             let most = format!("at most {MOST_VALUES} values");
             return Err(match given {
                 Some(step) => {
-                    Invalid::new("step", step, format!("a step that leads from {from} to {to} in {most}"))
+                    Error::new("step", step, format!("a step that leads from {from} to {to} in {most}"))
                 }
-                None if count < 0.0 => Invalid::new(
+                None if count < 0.0 => Error::new(
                     "range",
                     quoted(range),
                     format!("{to}:{from}, or a step downwards: {from}:{to}:-1"),
                 ),
-                None => Invalid::new(
-                    "range",
-                    quoted(range),
-                    format!("{most}, or a larger step: {from}:{to}:STEP"),
-                ),
+                None => {
+                    Error::new("range", quoted(range), format!("{most}, or a larger step: {from}:{to}:STEP"))
+                }
             });
         }
         // Steps such as 0.05 add up to 0.15000000000000002; what is meant is the nearest short decimal.
@@ -175,7 +173,7 @@ impl std::str::FromStr for Sweep {
 
 /// What the theory says of the scenario for every value of a parameter, as a table. Each of them must be a scenario that
 /// can be run.
-pub fn sweep(scenario: &Scenario, sweep: &Sweep) -> Result<Table, Invalid> {
+pub fn sweep(scenario: &Scenario, sweep: &Sweep) -> Result<Table, Error> {
     let mut reports = Vec::with_capacity(sweep.values.len());
     for &value in &sweep.values {
         let mut scenario = scenario.clone();
@@ -247,7 +245,7 @@ mod tests {
     #[test]
     fn curves_and_sweep_say_the_same() {
         let scenario = Scenario::default();
-        let plane = Plane::of(&scenario);
+        let plane = StabilityDiagram::of(&scenario);
         let curves = plane.curves(2..=133);
         let table = sweep(&scenario, &"vehicles=2:133".parse().unwrap()).unwrap();
         let continuous = table.floats("critical_reaction_time_s").unwrap();
@@ -265,7 +263,7 @@ mod tests {
     /// Mode 1 is the ring's own curve; the shorter the wave, the longer the delay that it tolerates.
     #[test]
     fn every_mode_has_a_curve_of_its_own() {
-        let plane = Plane { time_step: 0.05, ..Plane::of(&Scenario::default()) };
+        let plane = StabilityDiagram { time_step: 0.05, ..StabilityDiagram::of(&Scenario::default()) };
         let numbers = plane.numbers(150, 400);
         let curves = plane.curves(numbers.iter().copied());
         for (in_steps, of_the_ring) in [(false, &curves.continuous_s), (true, &curves.discrete_s)] {
@@ -283,7 +281,7 @@ mod tests {
 
     #[test]
     fn the_map_changes_sign_on_the_curve() {
-        let plane = Plane::of(&Scenario::default());
+        let plane = StabilityDiagram::of(&Scenario::default());
         for n in [2, 10, 50, 133] {
             let critical = plane.curves(n..=n);
             for (in_steps, tau) in [(false, critical.continuous_s[0]), (true, critical.discrete_s[0])] {
@@ -298,10 +296,10 @@ mod tests {
 
     #[test]
     fn pictures_reach_from_two_vehicles_to_the_jam() {
-        let plane = Plane::of(&Scenario::default());
+        let plane = StabilityDiagram::of(&Scenario::default());
         assert_eq!(plane.numbers(50, 400), (2..=133).collect::<Vec<_>>());
         assert_eq!(plane.numbers(150, 400).last(), Some(&150));
-        let road = Plane { length: 1e5, ..plane };
+        let road = StabilityDiagram { length: 1e5, ..plane };
         let spread = road.numbers(50, 400);
         assert!(spread.len() <= 401 && spread.last() == Some(&13_333), "{}", spread.len());
         assert!(spread.windows(2).all(|w| w[0] < w[1]));

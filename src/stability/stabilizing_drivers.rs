@@ -1,9 +1,9 @@
 //! How many drivers of another kind calm a ring?
 
-use super::driver_classes::Ring;
+use super::driver_classes::DriverClasses;
 use super::homogeneous::Time;
 use super::report::{Report, lanes_of};
-use crate::error::Invalid;
+use crate::error::Error;
 use crate::scenario::action::driver_values;
 use crate::scenario::driver::Driver;
 use crate::scenario::parameters::Parameter;
@@ -13,7 +13,7 @@ use serde::Serialize;
 /// The answer, for the least stable lane of a scenario, in the steps of its simulation. Its JSON is part of a report's, where
 /// lane and vehicles are said already.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Calming {
+pub struct StabilizingDrivers {
     /// The lane, from 1.
     #[serde(skip)]
     pub lane: usize,
@@ -36,7 +36,10 @@ const TRIED: usize = 200;
 
 /// Changes one driver after another of the least stable lane, those of the lowest numbers first; where the others
 /// are equal, and that is the usual question, it does not matter which.
-pub fn calm_with(scenario: &Scenario, changes: &[(&'static Parameter, f64)]) -> Result<Calming, Invalid> {
+pub fn stabilizing_drivers(
+    scenario: &Scenario,
+    changes: &[(&'static Parameter, f64)],
+) -> Result<StabilizingDrivers, Error> {
     let place = Report::of(scenario).lane - 1;
     let lane = lanes_of(scenario).swap_remove(place);
     let changed = |driver: &Driver| {
@@ -55,7 +58,7 @@ pub fn calm_with(scenario: &Scenario, changes: &[(&'static Parameter, f64)]) -> 
     let ring = |number: usize| {
         let drivers = [&calm[..number], &lane.drivers[number..]].concat();
         let delays = drivers.iter().map(|d| scenario.steps(d.reaction_time) as f64 * scenario.time_step);
-        Ring::of(&drivers, delays.collect::<Vec<_>>(), scenario.length)
+        DriverClasses::of(&drivers, delays.collect::<Vec<_>>(), scenario.length)
     };
     let time = Time::Steps(scenario.time_step);
     let rate = |number: usize| ring(number).fastest(time).map_or(0.0, |mode| mode.root.re);
@@ -77,7 +80,7 @@ pub fn calm_with(scenario: &Scenario, changes: &[(&'static Parameter, f64)]) -> 
         }
         high
     });
-    Ok(Calming {
+    Ok(StabilizingDrivers {
         lane: place + 1,
         vehicles: n,
         smallest_calming_number: smallest,
@@ -87,7 +90,7 @@ pub fn calm_with(scenario: &Scenario, changes: &[(&'static Parameter, f64)]) -> 
 }
 
 /// Reads `reaction-time=0` or `reaction-time=0,sensitivity=2`.
-pub fn parse_changes(text: &str) -> Result<Vec<(&'static Parameter, f64)>, Invalid> {
+pub fn parse_changes(text: &str) -> Result<Vec<(&'static Parameter, f64)>, Error> {
     let changes = driver_values(text).map_err(|e| e.within("calm-with"))?;
     for &(parameter, value) in &changes {
         parameter.check(value).map_err(|e| e.within("calm-with"))?;
@@ -107,20 +110,22 @@ mod tests {
 
     #[test]
     fn five_drivers_without_delay_calm_fifty() {
-        let calming = calm_with(&scenario(0.75), &parse_changes("reaction-time=0").unwrap()).unwrap();
+        let calming =
+            stabilizing_drivers(&scenario(0.75), &parse_changes("reaction-time=0").unwrap()).unwrap();
         assert_eq!(calming.smallest_calming_number, Some(5));
         assert_eq!(calming.numbers, (0..=50).collect::<Vec<_>>());
         assert!(calming.max_growth_rates_discrete_per_s.windows(2).all(|w| w[1] <= w[0] + 1e-12));
-        let stable = calm_with(&scenario(0.5), &parse_changes("reaction-time=0").unwrap()).unwrap();
+        let stable = stabilizing_drivers(&scenario(0.5), &parse_changes("reaction-time=0").unwrap()).unwrap();
         assert_eq!(stable.smallest_calming_number, Some(0));
-        let useless = calm_with(&scenario(0.75), &parse_changes("reaction-time=0.74").unwrap()).unwrap();
+        let useless =
+            stabilizing_drivers(&scenario(0.75), &parse_changes("reaction-time=0.74").unwrap()).unwrap();
         assert_eq!(useless.smallest_calming_number, None);
     }
 
     #[test]
     fn a_large_ring_has_its_number_too() {
         let scenario = Scenario { vehicles: 2000, length: 40_000.0, ..scenario(0.75) };
-        let calming = calm_with(&scenario, &parse_changes("reaction-time=0").unwrap()).unwrap();
+        let calming = stabilizing_drivers(&scenario, &parse_changes("reaction-time=0").unwrap()).unwrap();
         let number = calming.smallest_calming_number.unwrap();
         assert!(calming.numbers.len() == 201 && (100..400).contains(&number), "{number}");
     }
@@ -134,6 +139,11 @@ mod tests {
             assert!(message.contains("calm-with") && message.contains(words), "{message}");
         }
         let changes = parse_changes("min-headway=4").unwrap();
-        assert!(calm_with(&scenario(0.75), &changes).unwrap_err().to_string().contains("vehicle length"));
+        assert!(
+            stabilizing_drivers(&scenario(0.75), &changes)
+                .unwrap_err()
+                .to_string()
+                .contains("vehicle length")
+        );
     }
 }

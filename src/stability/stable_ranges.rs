@@ -1,7 +1,7 @@
 //! The inverse questions, for one lane of equal drivers: at this reaction time, how many vehicles are stable, and
 //! which sensitivities?
 
-use super::homogeneous::{EqualRing, Time};
+use super::homogeneous::{HomogeneousRing, Time};
 use crate::numerics::complex::Complex64;
 use crate::numerics::lambert_w::lambert_w;
 use crate::scenario::driver::Driver;
@@ -25,8 +25,9 @@ pub fn stable_vehicles(
     time: Time,
     most: usize,
 ) -> Vec<(usize, usize)> {
-    let stable =
-        |n: usize| delay < EqualRing { vehicles: n, slope: driver.slope(length / n as f64) }.critical(time);
+    let stable = |n: usize| {
+        delay < HomogeneousRing { vehicles: n, slope: driver.slope(length / n as f64) }.critical(time)
+    };
     // The first number that is jammed, and the last before it that is stable; one vehicle always is.
     let jammed = first_jammed(driver, length, most);
     let first_unstable = partition(1, jammed, stable);
@@ -124,7 +125,7 @@ mod tests {
                 let found = stable_sensitivities(&Driver::default(), 50, 1000.0, delay, time);
                 for end in found.iter().flat_map(|i| [i.0, i.1]).filter(|&l| l > 0.01 && l < 20.0) {
                     let driver = Driver { sensitivity: end, ..Driver::default() };
-                    let critical = EqualRing { vehicles: 50, slope: driver.slope(20.0) }.critical(time);
+                    let critical = HomogeneousRing { vehicles: 50, slope: driver.slope(20.0) }.critical(time);
                     assert!((critical - delay).abs() < 1e-9, "{time:?} {delay} {end}: {critical}");
                 }
             }
@@ -143,7 +144,7 @@ mod tests {
                     let found = stable_vehicles(&driver, 1000.0, delay, time, 199);
                     for n in 1..=199 {
                         let slope = driver.slope(1000.0 / f64::from(n));
-                        let stable = delay < EqualRing { vehicles: n as usize, slope }.critical(time);
+                        let stable = delay < HomogeneousRing { vehicles: n as usize, slope }.critical(time);
                         let inside = found.iter().any(|&(a, b)| (a..=b).contains(&(n as usize)));
                         assert_eq!(stable, inside, "{time:?} {delay} {n}: {found:?}");
                     }

@@ -5,7 +5,7 @@ use crate::stability::report::{Lane, Report};
 
 /// The sentence's numbers, of the least stable lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Verdict {
+pub struct StabilitySummary {
     /// Whether every wave fades, in the run's steps; none where no wave can exist.
     pub stable: Option<bool>,
     /// Whether all drivers of the lane are alike.
@@ -30,7 +30,7 @@ pub struct Verdict {
     pub vehicles: usize,
 }
 
-impl Default for Verdict {
+impl Default for StabilitySummary {
     /// Of a ring about which nothing is known.
     fn default() -> Self {
         Self {
@@ -51,14 +51,14 @@ impl Default for Verdict {
 
 /// The verdict on lanes of drivers on a ring of `length` metres, in steps of `time_step` seconds. Delays are what
 /// they will be once all of them are in force.
-pub fn verdict(lanes: &[Vec<Driver>], length: f64, time_step: f64) -> Verdict {
+pub fn verdict(lanes: &[Vec<Driver>], length: f64, time_step: f64) -> StabilitySummary {
     if lanes.iter().all(Vec::is_empty) {
-        return Verdict::default();
+        return StabilitySummary::default();
     }
     let lanes: Vec<_> = lanes.iter().map(|drivers| lane(drivers.clone(), time_step)).collect();
     let report = Report::of_lanes(&lanes, length, time_step);
     let moves = !report.jammed && report.vehicles > 1;
-    Verdict {
+    StabilitySummary {
         stable: moves.then_some(report.stable),
         alike: report.equal_drivers,
         reaction_time: report.delay_in_force_s,
@@ -68,7 +68,7 @@ pub fn verdict(lanes: &[Vec<Driver>], length: f64, time_step: f64) -> Verdict {
         rate: report.max_growth_rate_discrete_per_s.filter(|_| moves),
         mode: report.fastest_mode_discrete.filter(|_| moves),
         equilibrium: equilibrium(&lanes[report.lane - 1].drivers, length)
-            .unwrap_or(Verdict::default().equilibrium),
+            .unwrap_or(StabilitySummary::default().equilibrium),
         lane: report.lane,
         vehicles: report.vehicles,
     }

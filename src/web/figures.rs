@@ -2,9 +2,9 @@
 //! all pieces together give. Workers each do some pieces; any of them can put them together.
 
 use super::refusal;
-use crate::error::Invalid;
-use crate::reproduction::claim::{Claim, Verdict};
-use crate::reproduction::{FIGURES, Figure, Outcome, Piece, Size, Work};
+use crate::error::Error;
+use crate::reproduction::claim::{Claim, ClaimVerdict};
+use crate::reproduction::{FIGURES, Figure, Outcome, Size, Task, TaskResult};
 use js_sys::Float64Array;
 use serde_json::{Value, json};
 use wasm_bindgen::JsError;
@@ -27,7 +27,7 @@ pub fn figures() -> String {
 
 /// One piece of a figure's work, counted from 0, in slices.
 #[wasm_bindgen]
-pub struct FigureWork(Box<dyn Work>);
+pub struct FigureWork(Box<dyn Task>);
 
 #[wasm_bindgen]
 impl FigureWork {
@@ -38,7 +38,7 @@ impl FigureWork {
         let count = figure.pieces(Size::Full).len();
         if piece >= count {
             let allowed = format!("0 to {} for {id}", count - 1);
-            return Err(refusal(Invalid::new("piece", piece, allowed)));
+            return Err(refusal(Error::new("piece", piece, allowed)));
         }
         Ok(Self(figure.start(Size::Full, piece)))
     }
@@ -58,7 +58,7 @@ impl FigureOutcome {
     /// From the pieces in their order.
     #[wasm_bindgen(constructor)]
     pub fn new(id: &str, pieces: Vec<Float64Array>) -> Result<FigureOutcome, JsError> {
-        let pieces: Result<Vec<_>, _> = pieces.iter().map(|p| Piece::from_flat(&p.to_vec())).collect();
+        let pieces: Result<Vec<_>, _> = pieces.iter().map(|p| TaskResult::from_flat(&p.to_vec())).collect();
         let figure = Figure::named(id).map_err(refusal)?;
         figure.assemble(Size::Full, &pieces.map_err(refusal)?).map(Self).map_err(refusal)
     }
@@ -92,9 +92,9 @@ impl FigureOutcome {
     pub fn claims(&self) -> String {
         let one = |c: &Claim| {
             let verdict = match c.verdict() {
-                Verdict::Agrees => "agrees",
-                Verdict::Differs => "differs",
-                Verdict::NotDetermined => "open",
+                ClaimVerdict::Agrees => "agrees",
+                ClaimVerdict::Differs => "differs",
+                ClaimVerdict::NotDetermined => "open",
             };
             json!({
                 "claim": c.claim,

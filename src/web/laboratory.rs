@@ -2,7 +2,7 @@
 //! only step.
 
 use super::refusal;
-use crate::error::{Invalid, quoted};
+use crate::error::{Error, quoted};
 use crate::format::json::{self, Json, Object};
 use crate::live::{BINS, COLUMNS, Column, Live, opening};
 use crate::measurement::Measurement;
@@ -15,7 +15,7 @@ use crate::scenario::link;
 use crate::scenario::parameters::PARAMETERS;
 use crate::scenario::presets;
 use crate::simulation::Simulation;
-use crate::stability::summary::Verdict;
+use crate::stability::summary::StabilitySummary;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen::{Clamped, JsError};
 use web_sys::{ImageData, OffscreenCanvas, OffscreenCanvasRenderingContext2d};
@@ -29,7 +29,7 @@ pub fn parameters() -> String {
 /// The presets with their texts, as JSON.
 #[wasm_bindgen]
 pub fn presets() -> String {
-    json::text(&preset::presets())
+    json::text(&presets::presets())
 }
 
 /// Version of the program.
@@ -93,10 +93,9 @@ impl Lab {
 
     /// Opens a preset; its end is open.
     pub fn open_preset(&mut self, name: &str) -> Result<String, JsError> {
-        let found = preset::presets().into_iter().find(|p| p.name == name);
-        let mut scenario = found
-            .ok_or_else(|| refusal(Invalid::new("preset", quoted(name), "a name of the list")))?
-            .scenario;
+        let found = presets::presets().into_iter().find(|p| p.name == name);
+        let mut scenario =
+            found.ok_or_else(|| refusal(Error::new("preset", quoted(name), "a name of the list")))?.scenario;
         scenario.until = link::base().until;
         self.open(&scenario)?;
         Ok("[]".into())
@@ -237,7 +236,7 @@ impl Lab {
     }
     /// The growth measured so far as JSON, or `null`.
     pub fn growth(&self) -> String {
-        let one = |g: crate::live::Growth| {
+        let one = |g: crate::live::MeasuredGrowth| {
             Json::object([
                 ("rate", g.rate.into()),
                 ("standard_error", g.standard_error.into()),
@@ -402,11 +401,11 @@ fn quantity(name: &str) -> Result<Quantity, JsError> {
         "difference" => Ok(Quantity::Difference),
         "speed" => Ok(Quantity::Speed),
         "frustration" => Ok(Quantity::Frustration),
-        other => Err(refusal(Invalid::new("colour", quoted(other), "difference, speed, frustration"))),
+        other => Err(refusal(Error::new("colour", quoted(other), "difference, speed, frustration"))),
     }
 }
 
-pub(super) fn verdict(v: &Verdict) -> Json {
+pub(super) fn verdict(v: &StabilitySummary) -> Json {
     Json::object([
         ("stable", v.stable.into()),
         ("alike", v.alike.into()),

@@ -1,5 +1,5 @@
 //! The doors of the WebAssembly modules: numbers and texts in, typed arrays and JSON out, and the maps painted on
-//! their canvas. They decide nothing; a refusal comes out as the text of [`crate::error::Invalid`].
+//! their canvas. They decide nothing; a refusal comes out as the text of [`crate::error::Error`].
 //!
 //! There are two modules, so that who opens the laboratory does not load the paper's figures: the feature
 //! `laboratory` builds the one, `figures` the other, and a module carries only what its doors reach.
@@ -15,6 +15,6 @@ pub mod laboratory;
 pub mod stability;
 
 #[cfg(any(feature = "figures", feature = "laboratory"))]
-fn refusal(e: crate::error::Invalid) -> wasm_bindgen::JsError {
+fn refusal(e: crate::error::Error) -> wasm_bindgen::JsError {
     wasm_bindgen::JsError::new(&e.to_string())
 }

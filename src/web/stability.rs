@@ -4,7 +4,7 @@ use super::laboratory::{Lab, verdict};
 use super::refusal;
 use crate::format::json::{self, Json};
 use crate::format::table::Table;
-use crate::stability::stability_diagram::Plane;
+use crate::stability::stability_diagram::StabilityDiagram;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::*;
 
@@ -17,7 +17,7 @@ const CURVES: usize = 100;
 
 #[wasm_bindgen]
 impl Lab {
-    fn numbers(&mut self) -> (Plane, Vec<usize>) {
+    fn numbers(&mut self) -> (StabilityDiagram, Vec<usize>) {
         let plane = self.live.plane();
         (plane, plane.numbers(self.live.verdict().vehicles, POINTS))
     }

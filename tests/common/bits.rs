@@ -1,7 +1,7 @@
 //! Scenarios whose tables must have the same bits everywhere, and the hash that is compared.
 
 use ringroad::batch::{Plan, Run, run_all};
-use ringroad::error::Invalid;
+use ringroad::error::Error;
 use ringroad::measurement::Measurement;
 use ringroad::measurement::probe::measure;
 use ringroad::measurement::provenance::run_to_csv;
@@ -64,7 +64,7 @@ pub fn batch() -> String {
     let mut runs = BTreeMap::new();
     let finished = run_all(&plan, &numbers, None, &|_| true, &mut |run: Run| {
         runs.insert(run.number, run);
-        Ok::<(), Invalid>(())
+        Ok::<(), Error>(())
     });
     assert_eq!(finished, Ok(true));
     digest(&plan.to_csv(&plan.summary(&runs).unwrap()))

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use proptest::sample::select;
-use ringroad::scenario::action::{Action, Effect, Exception, Who};
+use ringroad::scenario::action::{Action, DriverOverride, Effect, VehicleSelector};
 use ringroad::scenario::parameters::Parameter;
 use ringroad::scenario::{Scenario, Start};
 use std::ops::RangeInclusive;
@@ -25,12 +25,12 @@ fn setting() -> impl Strategy<Value = (&'static Parameter, f64)> {
     ]
 }
 
-fn who(vehicles: usize) -> impl Strategy<Value = Who> {
+fn who(vehicles: usize) -> impl Strategy<Value = VehicleSelector> {
     prop_oneof![
-        1 => Just(Who::All),
-        6 => (1..=vehicles).prop_map(Who::Vehicle),
-        2 => (1..=vehicles, 1..=vehicles).prop_map(|(a, b)| Who::Range(a.min(b), a.max(b))),
-        1 => (0.0..60.0).prop_map(Who::Share),
+        1 => Just(VehicleSelector::All),
+        6 => (1..=vehicles).prop_map(VehicleSelector::Vehicle),
+        2 => (1..=vehicles, 1..=vehicles).prop_map(|(a, b)| VehicleSelector::Range(a.min(b), a.max(b))),
+        1 => (0.0..60.0).prop_map(VehicleSelector::Share),
     ]
 }
 
@@ -114,7 +114,7 @@ pub fn scenarios(lanes: RangeInclusive<usize>) -> impl Strategy<Value = Scenario
         .prop_flat_map(base)
         .prop_flat_map(|scenario| {
             let exception = (who(scenario.vehicles), prop::collection::vec(setting(), 1..3))
-                .prop_map(|(who, values)| Exception { who, values });
+                .prop_map(|(who, values)| DriverOverride { who, values });
             let action = || action(scenario.vehicles, scenario.length, scenario.until);
             let actions = prop_oneof![
                 Just(Vec::new()),

@@ -6,7 +6,7 @@
 //! the last bit; so the comparison does not depend on how an exponential is rounded.
 
 use ringroad::numerics::random::{Generator, Stream};
-use ringroad::scenario::action::{Action, Effect, Who};
+use ringroad::scenario::action::{Action, Effect, VehicleSelector};
 use ringroad::scenario::driver::Driver;
 use ringroad::scenario::{Scenario, Start};
 use ringroad::simulation::attempt_sampler::Sampler;
@@ -336,10 +336,10 @@ impl<S: Sampler> Twin<S> {
     fn act(&mut self, place: usize, action: &Action) {
         let n = self.vehicles();
         let members: Vec<usize> = match action.who {
-            Who::All => (0..n).collect(),
-            Who::Vehicle(number) => vec![number - 1],
-            Who::Range(first, last) => (first - 1..last).collect(),
-            Who::Share(percent) => {
+            VehicleSelector::All => (0..n).collect(),
+            VehicleSelector::Vehicle(number) => vec![number - 1],
+            VehicleSelector::Range(first, last) => (first - 1..last).collect(),
+            VehicleSelector::Share(percent) => {
                 let count = (percent / 100.0 * n as f64).round() as usize;
                 Generator::new(self.scenario.seed, Stream::Action(place)).choose(count, n)
             }
