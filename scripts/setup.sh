@@ -39,16 +39,20 @@ has_node() {
     process.exit(major > 22 || (major === 22 && minor >= 12) || (major === 20 && minor >= 19) ? 0 : 1)' 2>/dev/null
 }
 
-# ---- what the distribution brings ----
+# ---- what the Debian packages bring ----
 
+# Fills `packages` with the Debian packages that are missing now. It is called anew whenever the answer matters,
+# because an installation changes it.
 packages=()
-want() { packages+=("$1"); }
-have cc || want build-essential # the linker, and what build scripts compile
-if [ "$purpose" = test ]; then
-  [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || want chromium
-  [ -x "${CHROMEDRIVER:-/usr/bin/chromedriver}" ] || want chromium-driver
-  [ -x .venv/bin/python ] || has_venv || want python3-venv
-fi
+find_missing_packages() {
+  packages=()
+  have cc || packages+=(build-essential) # the linker, and what build scripts compile
+  if [ "$purpose" = test ]; then
+    [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || packages+=(chromium)
+    [ -x "${CHROMEDRIVER:-/usr/bin/chromedriver}" ] || packages+=(chromium-driver)
+    [ -x .venv/bin/python ] || has_venv || packages+=(python3-venv)
+  fi
+}
 
 debian() {
   # shellcheck source=/dev/null
@@ -74,6 +78,7 @@ list_and_fail() {
 }
 
 complete() {
+  find_missing_packages
   [ ${#packages[@]} -eq 0 ] && has_node && has_rust && has_wasm_target && has_bindgen && has_pack &&
     { [ "$purpose" = build ] || { has_component fmt && has_component clippy; }; }
 }
@@ -94,6 +99,10 @@ if [ ${#packages[@]} -gt 0 ]; then
   echo "setup: apt-get install ${packages[*]}"
   "${as_root[@]}" apt-get update -q
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${packages[@]}"
+  # The packages are there, but a browser of one's own choice (CHROMIUM, CHROMEDRIVER) may be named wrongly.
+  find_missing_packages
+  [ ${#packages[@]} -eq 0 ] || fail "apt-get installed what was asked, but this is still missing: ${packages[*]}" \
+    "CHROMIUM and CHROMEDRIVER, where they are set, must name programs that exist"
 fi
 
 # ---- what Rust's own tools bring ----
