@@ -54,7 +54,7 @@ run: build ## build the page and serve it here
 
 build: dist/ringroad.html ## build dist/ (the site) and dist/ringroad.html (the page in one file)
 
-TESTS := format lint hashes lint-wasm documentation rust csv types units size wasm browser
+TESTS := setup format lint hashes lint-wasm documentation rust csv types units size wasm browser
 test: $(TESTS:%=test-%) ## run every test: core, command, CSV, WebAssembly and page
 	@echo
 	for name in $(TESTS); do \
@@ -130,6 +130,9 @@ target/hashes.json: $(CORE) tests/hashes.rs $(wildcard tests/common/*.rs) | setu
 
 .PHONY: $(TESTS:%=test-%)
 $(TESTS:%=test-%): | setup-test
+
+test-setup: # with stand-ins for apt-get, rustup and cargo
+	tests/setup.sh $(LOG)
 
 test-format:
 	cargo fmt --check

@@ -54,9 +54,10 @@ find_missing_packages() {
   fi
 }
 
+os_release=${OS_RELEASE:-/etc/os-release} # the test of this script names another one
 debian() {
   # shellcheck source=/dev/null
-  have apt-get && [ -r /etc/os-release ] && (. /etc/os-release && [[ " ${ID:-} ${ID_LIKE:-} " == *" debian "* ]])
+  have apt-get && [ -r "$os_release" ] && (. "$os_release" && [[ " ${ID:-} ${ID_LIKE:-} " == *" debian "* ]])
 }
 
 list_and_fail() {
