@@ -54,7 +54,7 @@ run: build ## build the page and serve it here
 
 build: dist/ringroad.html ## build dist/ (the site) and dist/ringroad.html (the page in one file)
 
-TESTS := setup format lint hashes lint-wasm documentation rust csv types units size wasm browser
+TESTS := setup format lint hashes lint-wasm documentation package rust csv types units size wasm browser
 test: $(TESTS:%=test-%) ## run every test: core, command, CSV, WebAssembly and page
 	@echo
 	for name in $(TESTS); do \
@@ -147,6 +147,9 @@ test-lint-wasm: target/hashes.json
 
 test-documentation:
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps --lib
+
+test-package: # `tests/package.sh test` runs the tests of the unpacked crate, too
+	tests/package.sh check $(LOG)
 
 test-rust: # with the tests in the documentation and in the README
 	cargo test $(LOG)

@@ -27,5 +27,8 @@ fn every_width_gives_the_same_bits() {
     hashes.insert("batch", bits::batch());
     let different: std::collections::BTreeSet<_> = hashes.values().collect();
     assert_eq!(different.len(), hashes.len(), "each case has a table of its own");
-    std::fs::write(env!("RINGROAD_HASHES"), serde_json::to_string_pretty(&hashes).unwrap()).unwrap();
+    let file = std::path::Path::new(env!("RINGROAD_HASHES"));
+    // Cargo may build somewhere else, and then the folder `target` is not there.
+    std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+    std::fs::write(file, serde_json::to_string_pretty(&hashes).unwrap()).unwrap();
 }
