@@ -7,7 +7,7 @@ use crate::measurement::Measurement;
 use crate::measurement::provenance::{PLAN, header_line, with_header};
 use crate::scenario::Scenario;
 use crate::scenario::action::VehicleSelector;
-use crate::scenario::parameters::Parameter;
+use crate::scenario::parameters::RoadField;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -62,7 +62,7 @@ impl Plan {
                 let name = parameter.hyphenated();
                 return Err(Error::new("vary", quoted(&name), "every parameter once, with all its values"));
             }
-            parameter.set(&mut scenario, varied.values()[0])?;
+            scenario.set(parameter, varied.values()[0])?;
         }
         let plan = Self { scenario, vary, runs, measurement };
         plan.check_size()?;
@@ -80,8 +80,9 @@ impl Plan {
             let value = format!("{cells} cells of {} runs, {total} runs in all", self.runs);
             return Err(Error::new("batch", value, format!("at most {MOST_RUNS} runs")));
         }
-        let seed = Parameter::named("seed").expect("a parameter of the table");
-        seed.check(self.scenario.seed as f64 + (self.runs - 1) as f64)
+        RoadField::Seed
+            .parameter()
+            .check(self.scenario.seed as f64 + (self.runs - 1) as f64)
             .map_err(|e| e.within(format!("seed of the last of {} runs", self.runs)))
     }
 
@@ -193,7 +194,7 @@ impl Plan {
     pub fn scenario(&self, run: u64) -> Scenario {
         let mut scenario = self.scenario.clone();
         for (vary, value) in self.vary.iter().zip(self.cell_values(self.cell(run))) {
-            vary.parameter().set(&mut scenario, value).expect("checked when the plan was made");
+            scenario.set(vary.parameter(), value).expect("checked when the plan was made");
         }
         scenario.seed = self.seed(run);
         scenario

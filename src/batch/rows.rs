@@ -4,6 +4,7 @@ use super::plan::Plan;
 use super::run::Run;
 use crate::format::table::{Column, Table, Values};
 use crate::scenario::parameters::Parameter;
+use crate::scenario::value::Kind;
 use std::collections::BTreeMap;
 
 /// What is known of every run; a measurement with a column of that name says the same again.
@@ -47,7 +48,7 @@ impl Plan {
         let column = |(k, parameter): (usize, &Parameter)| {
             let values = of_cells.iter().map(|values| values[k]);
             let name = column_name(parameter);
-            if parameter.whole {
+            if matches!(parameter.kind, Kind::Whole(_)) {
                 Column::whole(name, parameter.unit, parameter.meaning, values.map(|x| x as u64).collect())
             } else {
                 Column::float(name, parameter.unit, parameter.meaning, values.collect())

@@ -85,7 +85,7 @@ pub(crate) fn unchecked_scenario(matches: &ArgMatches) -> Result<Scenario, Failu
     };
     for parameter in &PARAMETERS {
         if let Some(text) = text(parameter.name) {
-            parameter.set(&mut scenario, parameter.parse(text)?)?;
+            scenario.set(parameter, parameter.parse(text)?)?;
         }
     }
     if let Some(start) = text("start") {

@@ -27,7 +27,8 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
             "name", "symbol", "unit", "default", "allowed", "of"
         );
         for p in &PARAMETERS {
-            let allowed = format!("{} … {}", p.min, p.max);
+            let range = p.kind.range();
+            let allowed = range.map_or_else(|| p.kind.words(), |r| format!("{} … {}", r.min, r.max));
             let of = if p.is_of_driver() { "driver" } else { "road" };
             let name = p.hyphenated();
             let _ = writeln!(

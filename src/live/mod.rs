@@ -3,15 +3,15 @@
 //!
 //! Everything here is bounded in memory, however long the run. Tables for files come from the probes.
 
-use crate::error::{Error, quoted};
+use crate::error::Error;
 use crate::format::table::Table;
 use crate::measurement::modal_growth::{Linear, ModalGrowth};
 use crate::measurement::probe::Probe;
+use crate::scenario::Scenario;
 use crate::scenario::action::{Action, Effect, VehicleSelector};
 use crate::scenario::driver::{Driver, Equilibrium, equilibrium};
 use crate::scenario::link;
-use crate::scenario::parameters::Parameter;
-use crate::scenario::{Scenario, assign};
+use crate::scenario::parameters::{Field, RoadField, parameter};
 use crate::simulation::Simulation;
 use crate::stability::report::{Roots, roots_of_lane};
 use crate::stability::stability_diagram::StabilityDiagram;
@@ -472,12 +472,14 @@ impl Live {
         let set_for_all: Vec<_> = (scenario.actions_in_time().into_iter())
             .filter(|&(step, k)| step <= now && scenario.actions[k].who == VehicleSelector::All)
             .flat_map(|(_, k)| scenario.actions[k].effects.clone())
-            .filter_map(|effect| if let Effect::Set(p, value) = effect { Some((p, value)) } else { None })
+            .filter_map(
+                |effect| if let Effect::Set(field, value) = effect { Some((field, value)) } else { None },
+            )
             .collect();
-        for (parameter, value) in set_for_all {
-            assign(&mut scenario.driver, parameter, value);
+        for (field, value) in set_for_all {
+            scenario.driver.set(field, value);
             for exception in &mut scenario.exceptions {
-                exception.values.retain(|(p, _)| *p != parameter);
+                exception.values.retain(|(f, _)| *f != field);
             }
         }
         scenario.exceptions.retain(|e| !e.values.is_empty());
@@ -495,8 +497,8 @@ impl Live {
         if name == "start" {
             scenario.start = text.parse()?;
         } else {
-            let parameter = named(name)?;
-            parameter.set(&mut scenario, parameter.parse(text)?)?;
+            let parameter = parameter(name)?;
+            scenario.set(parameter, parameter.parse(text)?)?;
             if name == "vehicles" {
                 let n = scenario.vehicles;
                 scenario.actions.retain(|a| a.who.check(n).is_ok());
@@ -512,15 +514,16 @@ impl Live {
     pub fn set(&mut self, name: &str, text: &str) -> Result<bool, Error> {
         let running = self.simulation.step_index() > 0 && self.simulation.collision().is_none();
         if name == "until" {
-            let parameter = named(name)?;
-            return self.set_until(parameter.parse(text)?).map(|()| false);
+            let until = RoadField::Until.parameter().parse(text)?;
+            return self.set_until(until.number().unwrap_or(f64::NAN)).map(|()| false);
         }
-        if running && name != "start" && named(name)?.is_of_driver() {
-            let parameter = named(name)?;
-            let value = parameter.parse(text)?;
-            let action =
-                Action { at: 0.0, who: VehicleSelector::All, effects: vec![Effect::Set(parameter, value)] };
-            return self.act(action).map(|()| false);
+        if running && name != "start" {
+            let parameter = parameter(name)?;
+            if let Field::Driver(field) = parameter.field {
+                let effects = vec![Effect::Set(field, parameter.parse(text)?)];
+                let action = Action { at: 0.0, who: VehicleSelector::All, effects };
+                return self.act(action).map(|()| false);
+            }
         }
         *self = Self::new(&self.with(name, text)?)?;
         Ok(true)
@@ -593,14 +596,6 @@ impl Live {
         scenario.actions.remove(index);
         Self::new(&scenario)
     }
-}
-
-fn named(name: &str) -> Result<&'static Parameter, Error> {
-    Parameter::named(name).ok_or_else(|| {
-        let names: Vec<_> =
-            crate::scenario::parameters::PARAMETERS.iter().map(Parameter::hyphenated).collect();
-        Error::new("parameter", quoted(name), names.join(", "))
-    })
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::probe::{Due, Probe, Schedule};
 use crate::format::table::{Column, Table};
 use crate::scenario::action::Effect;
 use crate::scenario::driver::Driver;
-use crate::scenario::parameters::{PARAMETERS, Scope};
+use crate::scenario::parameters::{Field, PARAMETERS};
 use crate::simulation::Simulation;
 
 /// Names of the groups, and the group of every vehicle.
@@ -19,9 +19,9 @@ struct Groups {
 }
 
 fn name(driver: &Driver, default: &Driver) -> String {
-    let differing = PARAMETERS.iter().filter_map(|parameter| match parameter.scope {
-        Scope::Driver { get, .. } if get(driver) != get(default) => {
-            Some(Effect::Set(parameter, get(driver)).to_string())
+    let differing = PARAMETERS.iter().filter_map(|parameter| match parameter.field {
+        Field::Driver(field) if driver.value(field) != default.value(field) => {
+            Some(Effect::Set(field, driver.value(field)).to_string())
         }
         _ => None,
     });

@@ -9,7 +9,8 @@
 //! ```
 
 use crate::error::{Error, quoted};
-use crate::scenario::parameters::{PARAMETERS, Parameter};
+use crate::scenario::parameters::{Among, DriverField, Field, Lookup};
+use crate::scenario::value::Value;
 use std::fmt;
 use std::str::FromStr;
 
@@ -30,7 +31,7 @@ pub enum VehicleSelector {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Effect {
     /// Gives a driver's parameter a value.
-    Set(&'static Parameter, f64),
+    Set(DriverField, Value),
     /// Speed 0 for so many seconds.
     Brake(f64),
     /// A displacement by so many metres, downstream where positive.
@@ -54,7 +55,7 @@ pub struct DriverOverride {
     /// Who.
     pub who: VehicleSelector,
     /// Parameters that differ, with their values.
-    pub values: Vec<(&'static Parameter, f64)>,
+    pub values: Vec<(DriverField, Value)>,
 }
 
 impl VehicleSelector {
@@ -117,7 +118,7 @@ impl Effect {
     /// Whether the value is allowed on a ring of `length` metres.
     pub fn check(self, length: f64) -> Result<(), Error> {
         match self {
-            Self::Set(parameter, value) => parameter.check(value),
+            Self::Set(field, value) => field.parameter().check(value),
             Self::Brake(seconds) if (0.0..=1e7).contains(&seconds) => Ok(()),
             Self::Brake(seconds) => Err(Error::new("brake", seconds, "a number from 0 to 10000000 s")),
             Self::Nudge(metres) if metres.abs() <= length => Ok(()),
@@ -131,42 +132,44 @@ impl Effect {
 impl fmt::Display for Effect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Set(parameter, value) => write!(f, "{}={value}", parameter.hyphenated()),
+            Self::Set(field, value) => write!(f, "{}={value}", field.parameter().hyphenated()),
             Self::Brake(seconds) => write!(f, "brake={seconds}"),
             Self::Nudge(metres) => write!(f, "nudge={metres}"),
         }
     }
 }
 
-/// `NAME=VALUE` with a number; a refusal names `what` it is.
-fn assignment<'a>(what: &'static str, text: &'a str) -> Result<(&'a str, f64), Error> {
+/// Name and value of `NAME=VALUE`; a refusal names `what` it is.
+fn assignment<'a>(what: &'static str, text: &'a str) -> Result<(&'a str, &'a str), Error> {
     let (name, value) = text
         .split_once('=')
         .ok_or_else(|| Error::new(what, quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
-    let name = name.trim();
-    let number = value.trim().parse().map_err(|_| Error::new(name.to_owned(), quoted(value), "a number"))?;
-    Ok((name, number))
+    Ok((name.trim(), value))
 }
 
-/// What an [`Effect`] is called, and what an [`DriverOverride`] sets.
-const EFFECT: &str = "effect";
-const OF_DRIVER: &str = "driver's parameter";
-
-fn driver_parameter(what: &'static str, name: &str, others: &str) -> Result<&'static Parameter, Error> {
-    Parameter::named(name).filter(|p| p.is_of_driver()).ok_or_else(|| {
-        let names: Vec<_> =
-            PARAMETERS.iter().filter(|p| p.is_of_driver()).map(Parameter::hyphenated).collect();
-        Error::new(what, quoted(name), format!("{}{others}", names.join(", ")))
-    })
+fn number(name: &'static str, text: &str) -> Result<f64, Error> {
+    text.trim().parse().map_err(|_| Error::new(name, quoted(text), "a number"))
 }
+
+/// A field of a driver with its value, of which only the kind is checked.
+fn setting(names: Lookup, name: &str, text: &str) -> Result<(DriverField, Value), Error> {
+    let parameter = names.find(name)?;
+    let Field::Driver(field) = parameter.field else { unreachable!("the look-up is among those of drivers") };
+    let wrong = || Error::new(name.to_owned(), quoted(text), parameter.kind.words());
+    parameter.kind.parse(text).map(|value| (field, value)).ok_or_else(wrong)
+}
+
+/// Names of an [`Effect`], and of what a [`DriverOverride`] sets.
+const EFFECT: Lookup = Lookup { among: Among::Drivers, others: ", brake, nudge", ..Lookup::all("effect") };
+const OF_DRIVER: Lookup = Lookup { among: Among::Drivers, ..Lookup::all("driver's parameter") };
 
 impl FromStr for Effect {
     type Err = Error;
     fn from_str(text: &str) -> Result<Self, Error> {
-        match assignment(EFFECT, text)? {
-            ("brake", seconds) => Ok(Self::Brake(seconds)),
-            ("nudge", metres) => Ok(Self::Nudge(metres)),
-            (name, value) => driver_parameter(EFFECT, name, ", brake, nudge").map(|p| Self::Set(p, value)),
+        match assignment(EFFECT.of, text)? {
+            ("brake", seconds) => number("brake", seconds).map(Self::Brake),
+            ("nudge", metres) => number("nudge", metres).map(Self::Nudge),
+            (name, value) => setting(EFFECT, name, value).map(|(field, value)| Self::Set(field, value)),
         }
     }
 }
@@ -190,7 +193,7 @@ impl Action {
     pub(crate) fn replaces(&self, earlier: &Self) -> bool {
         let again = |old: &Effect| {
             self.effects.iter().any(|new| match (old, new) {
-                (Effect::Set(a, _), Effect::Set(b, _)) => a.name == b.name,
+                (Effect::Set(a, _), Effect::Set(b, _)) => a == b,
                 (Effect::Brake(before), Effect::Brake(now)) => before <= now,
                 _ => false,
             })
@@ -216,10 +219,8 @@ impl FromStr for Action {
         let (Some(at), Some(who), Some(effects)) = (parts.next(), parts.next(), parts.next()) else {
             return Err(form());
         };
-        let (name, at) = assignment(EFFECT, at).map_err(|_| form())?;
-        if name != "at" {
-            return Err(form());
-        }
+        let Ok(("at", at)) = assignment(EFFECT.of, at) else { return Err(form()) };
+        let at = number("at", at).map_err(|_| form())?;
         Self::of(at, who, effects).map_err(|e| e.within(quoted(text)))
     }
 }
@@ -245,10 +246,10 @@ impl FromStr for DriverOverride {
 }
 
 /// `PARAMETER=VALUE[,PARAMETER=VALUE …]` of a driver.
-pub(crate) fn driver_values(text: &str) -> Result<Vec<(&'static Parameter, f64)>, Error> {
+pub(crate) fn driver_values(text: &str) -> Result<Vec<(DriverField, Value)>, Error> {
     let one = |text: &str| {
-        let (name, value) = assignment(OF_DRIVER, text)?;
-        Ok((driver_parameter(OF_DRIVER, name, "")?, value))
+        let (name, value) = assignment(OF_DRIVER.of, text)?;
+        setting(OF_DRIVER, name, value)
     };
     text.split(',').map(one).collect()
 }

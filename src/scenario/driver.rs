@@ -4,8 +4,10 @@
 //! The law is Newell's (Operations Research 9, 1961):
 //! `v(h) = max(V − V·exp(−(λ/V)(h − d)), 0)`.
 
+use crate::error::Error;
 use crate::numerics::exp::exp;
-use crate::scenario::parameters::{PARAMETERS, Scope};
+use crate::scenario::parameters::{DriverField, Field, PARAMETERS};
+use crate::scenario::value::Value;
 
 /// One driver with the vehicle that he or she drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,8 +40,8 @@ impl Default for Driver {
             pass_frustration: f64::NAN,
         };
         for parameter in &PARAMETERS {
-            if let Scope::Driver { set, .. } = parameter.scope {
-                set(&mut driver, parameter.default);
+            if let Field::Driver(field) = parameter.field {
+                driver.set(field, parameter.default);
             }
         }
         driver
@@ -47,6 +49,53 @@ impl Default for Driver {
 }
 
 impl Driver {
+    /// The value of a field.
+    pub fn value(&self, field: DriverField) -> Value {
+        // Every field is named, so that one without a parameter does not compile.
+        let &Self {
+            max_speed,
+            sensitivity,
+            min_headway,
+            vehicle_length,
+            reaction_time,
+            frustration_rate,
+            pass_frustration,
+        } = self;
+        match field {
+            DriverField::MaxSpeed => max_speed.into(),
+            DriverField::Sensitivity => sensitivity.into(),
+            DriverField::MinHeadway => min_headway.into(),
+            DriverField::VehicleLength => vehicle_length.into(),
+            DriverField::ReactionTime => reaction_time.into(),
+            DriverField::FrustrationRate => frustration_rate.into(),
+            DriverField::PassFrustration => pass_frustration.into(),
+        }
+    }
+
+    /// Gives a field a value that its parameter allows; a value of another kind changes nothing.
+    pub fn set(&mut self, field: DriverField, value: Value) {
+        let Some(number) = value.number() else { return };
+        match field {
+            DriverField::MaxSpeed => self.max_speed = number,
+            DriverField::Sensitivity => self.sensitivity = number,
+            DriverField::MinHeadway => self.min_headway = number,
+            DriverField::VehicleLength => self.vehicle_length = number,
+            DriverField::ReactionTime => self.reaction_time = number,
+            DriverField::FrustrationRate => self.frustration_rate = number,
+            DriverField::PassFrustration => self.pass_frustration = number,
+        }
+    }
+
+    /// Whether the vehicle fits into the smallest headway, d > C.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        if self.min_headway > self.vehicle_length {
+            Ok(())
+        } else {
+            let allowed = format!("more than the vehicle length, {} m", self.vehicle_length);
+            Err(Error::new("min-headway", format!("{} m", self.min_headway), allowed))
+        }
+    }
+
     /// Speed (m/s) at headway `h` (m).
     pub fn speed(&self, h: f64) -> f64 {
         let gap_factor = exp(-(self.sensitivity / self.max_speed) * (h - self.min_headway));

@@ -5,7 +5,8 @@
 //! entry is reported and the rest applies.
 
 use crate::error::{Error, quoted};
-use crate::scenario::parameters::{PARAMETERS, Parameter};
+use crate::scenario::parameters::{Lookup, PARAMETERS, Parameter, RoadField};
+use crate::scenario::value::Value;
 use crate::scenario::{Scenario, Start};
 use std::fmt::Write as _;
 
@@ -13,7 +14,7 @@ use std::fmt::Write as _;
 /// when it has shown enough, so `until` is the largest that is allowed.
 pub fn base() -> Scenario {
     let mut scenario = Scenario::default();
-    scenario.until = Parameter::named("until").map_or(scenario.until, |p| p.max);
+    scenario.until = RoadField::Until.parameter().kind.range().map_or(scenario.until, |range| range.max);
     scenario
 }
 
@@ -28,7 +29,7 @@ pub struct Reading {
 
 /// One entry, understood by itself.
 enum Entry {
-    Number(&'static Parameter, f64),
+    Parameter(&'static Parameter, Value),
     Start(Start),
     Driver(crate::scenario::action::DriverOverride),
     Action(crate::scenario::action::Action),
@@ -44,15 +45,15 @@ impl Entry {
             "driver" => value.parse().map(Self::Driver),
             "action" => value.parse().map(Self::Action),
             name => {
-                let parameter = Parameter::named(name).ok_or_else(|| unknown(name))?;
-                Ok(Self::Number(parameter, parameter.parse(&value)?))
+                let parameter = NAMES.find(name)?;
+                Ok(Self::Parameter(parameter, parameter.parse(&value)?))
             }
         }
     }
 
     fn apply(&self, scenario: &mut Scenario) -> Result<(), Error> {
         match self {
-            Self::Number(parameter, value) => parameter.set(scenario, *value)?,
+            Self::Parameter(parameter, value) => scenario.set(parameter, *value)?,
             Self::Start(start) => scenario.start = *start,
             Self::Driver(exception) => scenario.exceptions.push(exception.clone()),
             Self::Action(action) => scenario.actions.push(action.clone()),
@@ -61,11 +62,8 @@ impl Entry {
     }
 }
 
-fn unknown(name: &str) -> Error {
-    let mut names: Vec<_> = PARAMETERS.iter().map(Parameter::hyphenated).collect();
-    names.extend(["start", "driver", "action"].map(String::from));
-    Error::new("link", quoted(name), names.join(", "))
-}
+/// Names of entries.
+const NAMES: Lookup = Lookup { others: ", start, driver, action", ..Lookup::all("link") };
 
 /// Reads the part of a link after `#`; a leading `#` is skipped.
 pub fn parse(text: &str) -> Reading {
@@ -118,9 +116,9 @@ pub fn format(scenario: &Scenario) -> String {
     let base = base();
     let mut parts = Vec::new();
     for parameter in &PARAMETERS {
-        let value = parameter.get(scenario);
-        if value != parameter.get(&base) {
-            parts.push(format!("{}={value}", parameter.hyphenated()));
+        let value = scenario.value(parameter);
+        if value != base.value(parameter) {
+            parts.push(format!("{}={}", parameter.hyphenated(), encoded(&value.to_string())));
         }
     }
     if scenario.start != base.start {

@@ -34,9 +34,10 @@ pub(crate) mod pass_detection;
 use crate::error::{Error, quoted};
 use crate::numerics::random::{Generator, Stream};
 use crate::numerics::simd::{Aligned, CHUNK, Width};
+use crate::scenario::Scenario;
 use crate::scenario::action::{Action, Effect, VehicleSelector};
 use crate::scenario::driver::Driver;
-use crate::scenario::{Scenario, assign, check_min_headway};
+use crate::scenario::parameters::RoadField;
 use crate::simulation::attempt_sampler::{ExponentialClock, Sampler};
 use crate::simulation::car_following::{CarFollowing, REFRESH, Scene};
 use crate::simulation::delays::{Delays, FEW};
@@ -626,11 +627,11 @@ impl<S: Sampler> Simulation<S> {
         for &j in &members {
             let mut driver = self.drivers[j];
             for effect in &action.effects {
-                if let Effect::Set(parameter, value) = *effect {
-                    assign(&mut driver, parameter, value);
+                if let Effect::Set(field, value) = *effect {
+                    driver.set(field, value);
                 }
             }
-            check_min_headway(&driver)?;
+            driver.check()?;
             longest = longest.max(driver.reaction_time);
         }
         self.scenario.check_history(longest)?;
@@ -678,9 +679,7 @@ impl<S: Sampler> Simulation<S> {
 
     /// Moves the end of the run, s.
     pub fn set_until(&mut self, until: f64) -> Result<(), Error> {
-        let parameter =
-            crate::scenario::parameters::Parameter::named("until").expect("a parameter of the table");
-        parameter.set(&mut self.scenario, until)?;
+        self.scenario.set(RoadField::Until.parameter(), until)?;
         self.last_step = self.scenario.last_step();
         Ok(())
     }
@@ -701,9 +700,9 @@ impl<S: Sampler> Simulation<S> {
         for j in self.scenario.members(who, Stream::Action(index)) {
             for &effect in &effects {
                 match effect {
-                    Effect::Set(parameter, value) => {
+                    Effect::Set(field, value) => {
                         any_set = true;
-                        assign(&mut self.drivers[j], parameter, value);
+                        self.drivers[j].set(field, value);
                         self.following.set_driver(j, &self.drivers[j]);
                         let target = self.scenario.steps(self.drivers[j].reaction_time) as u32;
                         self.delays.set_target(j, target);

@@ -9,6 +9,7 @@ use crate::format::table::{Column, Table};
 use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
 use crate::scenario::parameters::{PARAMETERS, Parameter};
+use crate::scenario::value::Kind;
 
 /// A lane that any number of equal drivers may share.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,16 +139,18 @@ impl std::str::FromStr for Sweep {
             [from, to, step] => (from, to, Some(step)),
             _ => return Err(form()),
         };
-        let (from, to) = (parameter.parse(from)?, parameter.parse(to)?);
+        let number = |text| parameter.parse(text)?.number().ok_or_else(form);
+        let (from, to) = (number(from)?, number(to)?);
+        let whole = matches!(parameter.kind, Kind::Whole(_));
         let given = step.map(|step| step.trim().parse().map_err(|_| form())).transpose()?;
-        if let Some(step) = given.filter(|step| parameter.whole && *step != f64::trunc(*step)) {
+        if let Some(step) = given.filter(|step| whole && *step != f64::trunc(*step)) {
             let allowed = format!("a whole step: {} is a whole number", parameter.hyphenated());
             return Err(Error::new("step", step, allowed));
         }
         if from == to {
             return Ok(Self { parameter, values: vec![from] });
         }
-        let step = given.unwrap_or(if parameter.whole { 1.0 } else { (to - from) / 100.0 });
+        let step = given.unwrap_or(if whole { 1.0 } else { (to - from) / 100.0 });
         let count = ((to - from) / step + 1e-9).floor();
         if !(0.0..MOST_VALUES).contains(&count) {
             let most = format!("at most {MOST_VALUES} values");
@@ -177,7 +180,7 @@ pub fn sweep(scenario: &Scenario, sweep: &Sweep) -> Result<Table, Error> {
     let mut reports = Vec::with_capacity(sweep.values.len());
     for &value in &sweep.values {
         let mut scenario = scenario.clone();
-        sweep.parameter.set(&mut scenario, value)?;
+        scenario.set(sweep.parameter, value)?;
         scenario.validate().map_err(|e| e.within(format!("{}={value}", sweep.parameter.hyphenated())))?;
         reports.push(Report::of(&scenario));
     }

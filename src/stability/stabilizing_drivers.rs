@@ -4,10 +4,11 @@ use super::driver_classes::DriverClasses;
 use super::homogeneous::Time;
 use super::report::{Report, lanes_of};
 use crate::error::Error;
+use crate::scenario::Scenario;
 use crate::scenario::action::driver_values;
 use crate::scenario::driver::Driver;
-use crate::scenario::parameters::Parameter;
-use crate::scenario::{Scenario, assign, check_min_headway};
+use crate::scenario::parameters::DriverField;
+use crate::scenario::value::Value;
 use serde::Serialize;
 
 /// The answer, for the least stable lane of a scenario, in the steps of its simulation. Its JSON is part of a report's, where
@@ -38,22 +39,22 @@ const TRIED: usize = 200;
 /// are equal, and that is the usual question, it does not matter which.
 pub fn stabilizing_drivers(
     scenario: &Scenario,
-    changes: &[(&'static Parameter, f64)],
+    changes: &[(DriverField, Value)],
 ) -> Result<StabilizingDrivers, Error> {
     let place = Report::of(scenario).lane - 1;
     let lane = lanes_of(scenario).swap_remove(place);
     let changed = |driver: &Driver| {
         let mut driver = *driver;
-        for &(parameter, value) in changes {
-            assign(&mut driver, parameter, value);
+        for &(field, value) in changes {
+            driver.set(field, value);
         }
         driver
     };
-    for &(parameter, value) in changes {
-        parameter.check(value)?;
+    for &(field, value) in changes {
+        field.parameter().check(value)?;
     }
     let calm: Vec<_> = lane.drivers.iter().map(changed).collect();
-    calm.iter().try_for_each(check_min_headway)?;
+    calm.iter().try_for_each(Driver::check)?;
     let n = calm.len();
     let ring = |number: usize| {
         let drivers = [&calm[..number], &lane.drivers[number..]].concat();
@@ -90,10 +91,10 @@ pub fn stabilizing_drivers(
 }
 
 /// Reads `reaction-time=0` or `reaction-time=0,sensitivity=2`.
-pub fn parse_changes(text: &str) -> Result<Vec<(&'static Parameter, f64)>, Error> {
+pub fn parse_changes(text: &str) -> Result<Vec<(DriverField, Value)>, Error> {
     let changes = driver_values(text).map_err(|e| e.within("calm-with"))?;
-    for &(parameter, value) in &changes {
-        parameter.check(value).map_err(|e| e.within("calm-with"))?;
+    for &(field, value) in &changes {
+        field.parameter().check(value).map_err(|e| e.within("calm-with"))?;
     }
     Ok(changes)
 }

@@ -5,11 +5,11 @@ use super::homogeneous::{HomogeneousRing, Time};
 use crate::numerics::complex::Complex64;
 use crate::numerics::lambert_w::lambert_w;
 use crate::scenario::driver::Driver;
-use crate::scenario::parameters::Parameter;
+use crate::scenario::parameters::{DriverField, RoadField};
 
 /// The largest number of such vehicles that a lane of `length` metres holds without touching.
 pub fn most_vehicles(driver: &Driver, length: f64) -> usize {
-    let most = Parameter::named("vehicles").map_or(f64::INFINITY, |p| p.max);
+    let most = RoadField::Vehicles.parameter().kind.range().map_or(f64::INFINITY, |range| range.max);
     ((length / driver.vehicle_length).ceil() - 1.0).clamp(1.0, most) as usize
 }
 
@@ -77,7 +77,8 @@ pub fn stable_sensitivities(
     delay: f64,
     time: Time,
 ) -> Vec<(f64, f64)> {
-    let range = Parameter::named("sensitivity").map_or((0.0, f64::INFINITY), |p| (p.min, p.max));
+    let range = DriverField::Sensitivity.parameter().kind.range();
+    let range = range.map_or((0.0, f64::INFINITY), |range| (range.min, range.max));
     let gap = length / vehicles as f64 - driver.min_headway;
     let a = std::f64::consts::PI / vehicles as f64;
     let critical = match time {

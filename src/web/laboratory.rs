@@ -12,7 +12,7 @@ use crate::plot::colour::{Ground, Quantity, Rgb, Scale};
 use crate::scenario::Scenario;
 use crate::scenario::action::Action;
 use crate::scenario::link;
-use crate::scenario::parameters::PARAMETERS;
+use crate::scenario::parameters::{Field, PARAMETERS};
 use crate::scenario::presets;
 use crate::simulation::Simulation;
 use crate::stability::summary::StabilitySummary;
@@ -173,8 +173,10 @@ impl Lab {
         let scenario = live.simulation().scenario();
         let now = live.settled().driver;
         let mut driver = Object::default();
-        for parameter in PARAMETERS.iter().filter(|p| p.is_of_driver()) {
-            driver.insert(parameter.name, parameter.get(&Scenario { driver: now, ..Scenario::default() }));
+        for parameter in &PARAMETERS {
+            if let Field::Driver(field) = parameter.field {
+                driver.insert(parameter.name, now.value(field));
+            }
         }
         let watched: Json = live.watched().iter().map(|j| j + 1).collect();
         Json::object([

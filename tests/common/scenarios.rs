@@ -4,25 +4,23 @@
 use proptest::prelude::*;
 use proptest::sample::select;
 use ringroad::scenario::action::{Action, DriverOverride, Effect, VehicleSelector};
-use ringroad::scenario::parameters::Parameter;
+use ringroad::scenario::parameters::DriverField;
+use ringroad::scenario::value::Value;
 use ringroad::scenario::{Scenario, Start};
 use std::ops::RangeInclusive;
 
-fn parameter(name: &str) -> &'static Parameter {
-    Parameter::named(name).unwrap()
-}
-
-/// A parameter of drivers with a value that goes with every other one here.
-fn setting() -> impl Strategy<Value = (&'static Parameter, f64)> {
-    prop_oneof![
-        (5.0..40.0).prop_map(|v| (parameter("max_speed"), v)),
-        (0.3..3.0).prop_map(|v| (parameter("sensitivity"), v)),
-        (7.0..15.0).prop_map(|v| (parameter("min_headway"), v)),
-        (2.0..6.5).prop_map(|v| (parameter("vehicle_length"), v)),
-        (0.0..1.0).prop_map(|v| (parameter("reaction_time"), v)),
-        select(vec![0.0, 0.1, 1.0, 4.0]).prop_map(|v| (parameter("frustration_rate"), v)),
-        select(vec![0.0, 0.1, 0.5, 2.0]).prop_map(|v| (parameter("pass_frustration"), v)),
-    ]
+/// A field of drivers with a value that goes with every other one here.
+fn setting() -> impl Strategy<Value = (DriverField, Value)> {
+    let field = prop_oneof![
+        (5.0..40.0).prop_map(|v| (DriverField::MaxSpeed, v)),
+        (0.3..3.0).prop_map(|v| (DriverField::Sensitivity, v)),
+        (7.0..15.0).prop_map(|v| (DriverField::MinHeadway, v)),
+        (2.0..6.5).prop_map(|v| (DriverField::VehicleLength, v)),
+        (0.0..1.0).prop_map(|v| (DriverField::ReactionTime, v)),
+        select(vec![0.0, 0.1, 1.0, 4.0]).prop_map(|v| (DriverField::FrustrationRate, v)),
+        select(vec![0.0, 0.1, 0.5, 2.0]).prop_map(|v| (DriverField::PassFrustration, v)),
+    ];
+    field.prop_map(|(field, value)| (field, Value::Number(value)))
 }
 
 fn who(vehicles: usize) -> impl Strategy<Value = VehicleSelector> {

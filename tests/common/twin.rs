@@ -347,7 +347,7 @@ impl<S: Sampler> Twin<S> {
         for j in members {
             for &effect in &action.effects {
                 match effect {
-                    Effect::Set(parameter, value) => self.set(j, parameter.name, value),
+                    Effect::Set(field, value) => self.set(j, field.parameter().name, value.number().unwrap()),
                     Effect::Brake(seconds) => {
                         let steps = (seconds / self.scenario.time_step).round() as u64;
                         self.released[j] = self.released[j].max(self.step as u64 + steps);
