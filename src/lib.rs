@@ -38,6 +38,9 @@ pub mod stability;
 #[cfg(target_arch = "wasm32")]
 pub mod web;
 
+pub use scenario::Scenario;
+pub use simulation::Simulation;
+
 /// The README's example runs with the tests in the documentation.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
