@@ -1,5 +1,5 @@
 //! Cost of the linear theory: the report that the page asks for at every move of a slider, the curves of the stability
-//! plane, and the map of growth rates.
+//! diagram, and its map of growth rates.
 //!
 //! `cargo bench --bench stability`
 
@@ -39,13 +39,14 @@ mod cases {
             });
         }
         let scenario = scenario(50, &[]);
-        let plane = StabilityDiagram::of(&scenario);
+        let diagram = StabilityDiagram::of(&scenario);
         let numbers: Vec<_> = (2..=133).collect();
         criterion.bench_function("curves of the plane, every mode, both times, N = 2 … 133", |b| {
             b.iter(|| {
-                let of_mode = |q| [false, true].map(|t| plane.critical_of_mode(q, &numbers, plane.time(t)));
+                let of_mode =
+                    |q| [false, true].map(|t| diagram.critical_of_mode(q, &numbers, diagram.time(t)));
                 let modes: Vec<_> = (1..=66).map(of_mode).collect();
-                black_box((plane.curves(numbers.iter().copied()), modes))
+                black_box((diagram.curves(numbers.iter().copied()), modes))
             });
         });
         for in_steps in [false, true] {
@@ -53,7 +54,7 @@ mod cases {
             criterion.bench_function(&format!("map of growth rates, N = 2 … 133 by 200, {name}"), |b| {
                 b.iter(|| {
                     let delays = || (0..200).map(|k| f64::from(black_box(k)) * 0.0075);
-                    let row = |&n: &usize| plane.growth_rates(n, delays(), plane.time(in_steps));
+                    let row = |&n: &usize| diagram.growth_rates(n, delays(), diagram.time(in_steps));
                     numbers.iter().map(row).collect::<Vec<_>>()
                 });
             });

@@ -12,7 +12,7 @@ use ringroad::stability::stabilizing_drivers::{parse_changes, stabilizing_driver
 /// even all of them do not suffice.
 pub fn by_theory(scenario: &Scenario) -> Result<Option<usize>, Error> {
     let answer = stabilizing_drivers(scenario, &parse_changes("reaction-time=0")?)?;
-    Ok(answer.smallest_calming_number)
+    Ok(answer.smallest_number)
 }
 
 /// The range of the speeds (m/s) at the end of a run whose first `quick` drivers react without delay. The start is

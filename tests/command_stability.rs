@@ -1,4 +1,4 @@
-//! `ringroad stability`, run as a person runs it.
+//! `ringroad stability`, run as a process.
 #![cfg(feature = "command")]
 
 use serde_json::Value;
@@ -44,7 +44,7 @@ fn json_has_the_thresholds() {
 }
 
 #[test]
-fn infinite_thresholds_are_null_and_said_in_words() {
+fn infinite_thresholds_are_null_in_json_and_words_in_text() {
     for arguments in [["--vehicles", "1"], ["--vehicles", "150"]] {
         let report = json(&arguments);
         assert!(report["critical_reaction_time_s"].is_null() && report["stable"] == true, "{report}");
@@ -55,7 +55,7 @@ fn infinite_thresholds_are_null_and_said_in_words() {
 }
 
 #[test]
-fn five_calm_drivers_are_enough() {
+fn five_drivers_without_delay_stabilize_the_ring() {
     let report = json(&["--reaction-time", "0.75", "--calm-with", "reaction-time=0"]);
     assert_eq!(report["smallest_calming_number"], 5);
     assert_eq!(report["calming_numbers"].as_array().unwrap().len(), 51);
@@ -68,24 +68,25 @@ fn five_calm_drivers_are_enough() {
 }
 
 #[test]
-fn roots_come_mode_by_mode() {
+fn roots_are_listed_mode_by_mode() {
     let report = json(&["--reaction-time", "0.75", "--roots", "4"]);
     let roots = report["roots"].as_array().unwrap();
     assert_eq!(roots.len(), 100);
     assert!(roots.iter().all(|root| root["residual"].as_f64().unwrap() < 1e-10));
     let largest = roots.iter().map(|root| root["real_per_s"].as_f64().unwrap()).fold(f64::MIN, f64::max);
     assert_eq!(report["max_growth_rate_per_s"].as_f64().unwrap(), largest);
-    let mixed = json(&["--reaction-time", "0.75", "--driver", "1-9:reaction-time=0", "--roots", "2"]);
-    assert!(mixed["roots"].as_array().unwrap().len() >= 25);
+    let heterogeneous = json(&["--reaction-time", "0.75", "--driver", "1-9:reaction-time=0", "--roots", "2"]);
+    assert!(heterogeneous["roots"].as_array().unwrap().len() >= 25);
 }
 
-/// The run's own roots stand beside those of continuous time: each solves the difference equation, z^m·(z − 1) = dt·d_q.
+/// The roots of the simulation stand beside those of continuous time; each solves the difference equation,
+/// z^m·(z − 1) = dt·d_q.
 #[test]
-fn roots_of_the_run_come_too() {
-    let alike: &[&str] = &["--reaction-time", "0.75"];
+fn roots_of_the_simulation_are_given_too() {
+    let homogeneous: &[&str] = &["--reaction-time", "0.75"];
     let coarse = &["--reaction-time", "0.8", "--time-step", "0.1", "--vehicles", "20"];
-    let differ = &["--reaction-time", "0.75", "--driver", "1-9:reaction-time=0.3,sensitivity=1.2"];
-    for (scenario, modes, per_mode) in [(alike, 25, 4), (coarse, 10, 4), (differ, 25, 4)] {
+    let heterogeneous = &["--reaction-time", "0.75", "--driver", "1-9:reaction-time=0.3,sensitivity=1.2"];
+    for (scenario, modes, per_mode) in [(homogeneous, 25, 4), (coarse, 10, 4), (heterogeneous, 25, 4)] {
         let report = json(&[scenario, &["--roots", "4"]].concat());
         let roots = report["roots_discrete"].as_array().unwrap();
         assert_eq!(roots.len(), modes * per_mode, "{scenario:?}");
@@ -103,6 +104,37 @@ fn roots_of_the_run_come_too() {
     }
     let words = answer(&["--reaction-time", "0.75", "--roots", "1"]);
     assert!(words.contains("\ncontinuous time\n") && words.contains("\nin steps of 0.01 s"), "{words}");
+}
+
+/// The numerical eigenvalues of the Jacobian are the closed form; those of heterogeneous drivers are the roots without delay.
+#[test]
+fn eigenvalues_are_a_table_and_part_of_the_json() {
+    let csv = answer(&["--reaction-time", "0.75", "--eigenvalues"]);
+    assert!(
+        csv.starts_with("# ringroad ") && csv.contains("\n# computed stability --eigenvalues\n"),
+        "{csv}"
+    );
+    let rows: Vec<_> = csv.lines().filter(|l| !l.starts_with('#')).collect();
+    assert_eq!(
+        rows[0],
+        "mode,real_per_s,imaginary_per_s,theory_real_per_s,theory_imaginary_per_s,distance_per_s"
+    );
+    assert_eq!(rows.len(), 50);
+    let c = 0.731_616;
+    for (k, row) in rows[1..].iter().enumerate() {
+        let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let angle = std::f64::consts::TAU * (k + 1) as f64 / 50.0;
+        assert_eq!(cells[0], (k + 1) as f64);
+        assert!((cells[1] + c * (1.0 - libm::cos(angle))).abs() < 1e-6, "{row}");
+        assert!((cells[2] - c * libm::sin(angle)).abs() < 1e-6 && cells[5] < 1e-9, "{row}");
+    }
+    let heterogeneous = ["--driver", "1-9:sensitivity=1.6", "--eigenvalues", "--roots", "1"];
+    let report = json(&heterogeneous);
+    let eigenvalues = report["eigenvalues"].as_array().unwrap();
+    assert_eq!((eigenvalues.len(), report["roots"].as_array().unwrap().len()), (49, 25));
+    assert!(eigenvalues.iter().all(|e| e["distance_per_s"].as_f64().unwrap() < 1e-9));
+    assert!(json(&[]).get("eigenvalues").is_none());
+    assert_eq!(json(&["--vehicles", "1", "--eigenvalues"])["eigenvalues"], serde_json::json!([]));
 }
 
 #[test]
@@ -138,6 +170,11 @@ fn bad_input_is_refused_by_name() {
             "calm-with: driver's parameter: “foo” is not allowed; allowed: max-speed, ",
         ),
         (&["--sweep", "vehicles=2:250"], "vehicles=200"),
+        (
+            &["--vehicles", "201", "--length", "5000", "--eigenvalues"],
+            "--eigenvalues: vehicles: 201 is not allowed; allowed: at most 200 vehicles",
+        ),
+        (&["--eigenvalues", "--roots", "2"], "--eigenvalues: with --roots is not allowed"),
         (&["--roots", "0"], "--roots"),
         (&["--roots", "many"], "many"),
         (&["--calm-with", "reaction-time=-1"], "reaction-time"),

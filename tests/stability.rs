@@ -1,4 +1,4 @@
-//! Linear theory against simulation: growth rates mode by mode, equal drivers and drivers that differ.
+//! Linear theory against simulation: growth rates mode by mode, homogeneous and heterogeneous drivers.
 
 use nalgebra::{DMatrix, DVector};
 use ringroad::measurement::modal_growth::{Linear, ModalGrowth};
@@ -8,9 +8,10 @@ use ringroad::scenario::Scenario;
 use ringroad::scenario::driver::{Driver, equilibrium};
 use ringroad::simulation::Simulation;
 use ringroad::stability::Complex64;
-use ringroad::stability::driver_classes::{DriverClasses, slopes};
+use ringroad::stability::driver_classes::DriverClasses;
 use ringroad::stability::homogeneous::{HomogeneousRing, Mode, Time};
-use ringroad::stability::report::{Lane, Report};
+use ringroad::stability::lane::Lane;
+use ringroad::stability::report::Report;
 use ringroad::stability::stabilizing_drivers::{parse_changes, stabilizing_drivers};
 
 /// Within 1 % or three standard errors.
@@ -19,8 +20,8 @@ fn agrees(measured: f64, error: f64, predicted: f64) -> bool {
     difference <= 0.01 * predicted.abs() || difference <= 3.0 * error
 }
 
-/// Growth rates of modes 1 … `modes` with standard errors and numbers of points, after a nudge of vehicle 1. What the
-/// start excites beside the leading roots dies within ten delays.
+/// Growth rates of modes 1 … `modes` with standard errors and numbers of points, after a nudge of vehicle 1. The start also
+/// excites other roots than the leading ones; their part fades within ten delays.
 fn measured(
     reaction_time: f64,
     modes: usize,
@@ -57,8 +58,8 @@ fn every_mode_grows_as_the_difference_equation_says() {
         let predicted: Vec<_> =
             ring.modes().map(|q| ring.root(q, reaction_time, Time::Steps(0.01)).re).collect();
         let stable = predicted.iter().all(|rate| *rate < 0.0);
-        // Weak nudges for what changes slowly: what is not linear stays small; strong ones for what fades
-        // fast, which would sink into rounding.
+        // Weak nudges for modes that change slowly: nonlinear terms stay small. Strong nudges for modes that fade
+        // fast and would sink into rounding.
         let (weak, strong) = if stable {
             (
                 measured(reaction_time, 10, 2e-5, 600.0, Linear { smallest: 1e-10, nonlinearity: 1e-5 }),
@@ -90,11 +91,12 @@ fn every_mode_grows_as_the_difference_equation_says() {
     assert!(compared > 150 && left_out * 5 < compared + left_out);
 }
 
-/// Where waves are not tiny, the bound of the table of growth holds: a nudge of 1 m on either side of the threshold, near it too.
+/// Where waves are not tiny, the bound in the table of growth holds: nudges up to 1 m on both sides of the threshold, also
+/// near it.
 #[test]
-fn the_size_of_the_waves_moves_a_growth_rate_by_less_than_its_bound() {
+fn the_size_of_the_waves_changes_a_growth_rate_by_less_than_its_bound() {
     let linear = Linear { smallest: 1e-8, nonlinearity: 0.01 };
-    let (mut compared, mut telling) = (0, 0);
+    let (mut compared, mut significant) = (0, 0);
     for reaction_time in [0.5, 0.6, 0.66, 0.7, 0.75, 0.8] {
         for nudge in [0.1, 0.3, 1.0] {
             let mut scenario = Scenario { until: 200.0, ..Scenario::default() };
@@ -113,7 +115,7 @@ fn the_size_of_the_waves_moves_a_growth_rate_by_less_than_its_bound() {
                 }
                 compared += 1;
                 let difference = (rate - predicted).abs();
-                telling += usize::from(difference > 3.0 * error);
+                significant += usize::from(difference > 3.0 * error);
                 assert!(
                     difference <= bound + 3.0 * error,
                     "Δ = {reaction_time} s, nudge {nudge} m, mode {}: {rate} ± {error}, theory {predicted}, bound {bound}",
@@ -122,13 +124,13 @@ fn the_size_of_the_waves_moves_a_growth_rate_by_less_than_its_bound() {
             }
         }
     }
-    println!("{compared} growth rates compared; {telling} differ by more than three standard errors");
-    assert!(compared > 120 && telling > 40);
+    println!("{compared} growth rates compared; {significant} differ by more than three standard errors");
+    assert!(compared > 120 && significant > 40);
 }
 
-/// A ring with exceptions that starts in equilibrium (the nudges lead there from equal headways), but for
-/// displacements of some micrometres, different for everybody, so that every mode is excited.
-fn mixed(vehicles: usize, reaction_time: f64, exceptions: &[String]) -> Scenario {
+/// A ring with driver overrides that starts in equilibrium (the nudges lead there from equal headways), except for
+/// displacements of some micrometres. These differ from vehicle to vehicle, so that every mode is excited.
+fn heterogeneous(vehicles: usize, reaction_time: f64, exceptions: &[String]) -> Scenario {
     let mut scenario =
         Scenario { vehicles, length: 20.0 * vehicles as f64, until: 400.0, ..Scenario::default() };
     scenario.driver.reaction_time = reaction_time;
@@ -146,13 +148,14 @@ fn mixed(vehicles: usize, reaction_time: f64, exceptions: &[String]) -> Scenario
 
 /// The dominant mode by theory; and its growth measured, with the standard error.
 ///
-/// The pattern of mode q is v_{j+1} = u_j·v_j; the headways are taken apart into the patterns of all modes
-/// (after what the start excites beside their leading roots has died), and the slope of ln|amplitude| of the dominant one is
+/// The pattern of mode q is v_{j+1} = u_j·v_j. The headways are written as a sum of the patterns of all modes (after the
+/// other roots, which the start excites too, have faded), and the slope of ln|amplitude| of the dominant mode is
 /// fitted. If theory had the pattern wrong, that amplitude would not be an exponential.
 fn dominant(scenario: &Scenario) -> (Mode, f64, f64) {
     let (n, time) = (scenario.vehicles, Time::Steps(scenario.time_step));
     let drivers = scenario.drivers();
-    let slopes = slopes(&drivers, scenario.length);
+    let equilibrium = equilibrium(&drivers, scenario.length).unwrap();
+    let slopes: Vec<_> = drivers.iter().map(|d| equilibrium.slope(&d.law())).collect();
     let delays: Vec<_> =
         drivers.iter().map(|d| scenario.steps(d.reaction_time) as f64 * scenario.time_step).collect();
     let ring = DriverClasses::new(slopes.iter().copied().zip(delays.iter().copied()));
@@ -178,17 +181,17 @@ fn dominant(scenario: &Scenario) -> (Mode, f64, f64) {
             }
             v *= u;
         }
-        // Once round, the pattern comes back to itself.
+        // Once round the ring, the pattern repeats.
         assert!((v - 1.0).norm_sqr() < 1e-12, "{mode:?}: {v}");
         column += conjugates;
     }
     assert_eq!(column, n - 1);
-    // The sum of all headway deviations is 0, so one equation says nothing new.
+    // The sum of all headway deviations is 0, so one equation follows from the others.
     let solver = patterns.rows(0, n - 1).into_owned().lu();
     let fastest = ring.fastest(time).unwrap();
     let place = 2 * (fastest.mode - 1);
 
-    let speed = equilibrium(&drivers, scenario.length).unwrap().speed;
+    let speed = equilibrium.speed;
     let mut simulation = Simulation::new(scenario).unwrap();
     let mut points = Vec::new();
     simulation.run_to(scenario.steps(60.0));
@@ -204,7 +207,7 @@ fn dominant(scenario: &Scenario) -> (Mode, f64, f64) {
     (fastest, line.slope, line.slope_error)
 }
 
-/// Vehicles, reaction time (s) of most of them, and how many have what instead.
+/// Vehicles, reaction time (s) of most of them, and how many have which values instead.
 const CASES: [(usize, f64, usize, &str); 7] = [
     (50, 0.75, 4, "reaction-time=0"),
     (51, 0.75, 10, "reaction-time=0.2"),
@@ -215,8 +218,8 @@ const CASES: [(usize, f64, usize, &str); 7] = [
     (50, 0.65, 12, "sensitivity=1.6,reaction-time=0.8,max-speed=35,min-headway=9"),
 ];
 
-/// Numbers of `count` vehicles among `vehicles`: side by side, or spread out.
-fn who(count: usize, vehicles: usize, in_a_block: bool, values: &str) -> Vec<String> {
+/// Overrides for `count` vehicles among `vehicles`: next to one another, or spread over the ring.
+fn overrides(count: usize, vehicles: usize, in_a_block: bool, values: &str) -> Vec<String> {
     if in_a_block {
         return vec![format!("1-{count}:{values}")];
     }
@@ -224,10 +227,11 @@ fn who(count: usize, vehicles: usize, in_a_block: bool, values: &str) -> Vec<Str
 }
 
 #[test]
-fn the_dominant_mode_of_mixed_rings_grows_as_the_product_equation_says() {
+fn the_dominant_mode_of_heterogeneous_rings_grows_as_the_product_equation_says() {
     for (vehicles, reaction_time, count, values) in CASES {
         for in_a_block in [true, false] {
-            let scenario = mixed(vehicles, reaction_time, &who(count, vehicles, in_a_block, values));
+            let scenario =
+                heterogeneous(vehicles, reaction_time, &overrides(count, vehicles, in_a_block, values));
             let (mode, rate, error) = dominant(&scenario);
             println!(
                 "{values}, {count} of {vehicles}, block {in_a_block}: {mode:?}, {rate:+.6} ± {error:.1e}"
@@ -240,11 +244,12 @@ fn the_dominant_mode_of_mixed_rings_grows_as_the_product_equation_says() {
     }
 }
 
-/// Beside Fourier mode q the table of growth has the root that is followed from mode q of equal drivers. Drivers
-/// spread over the ring: right for the dominant mode and all that grow. In one block: for the dominant mode,
-/// with a wide standard error; a mode that grows slowly is drowned by the fast ones, which half a ring of slow drivers shows.
+/// Beside Fourier mode q the table of growth has the root that is followed from mode q of homogeneous drivers. With the other
+/// drivers spread over the ring it is right for the dominant mode and for all that grow. With them in one block it is right for
+/// the dominant mode, with a large standard error; the amplitude of a mode that grows slowly is then mostly that of the fast
+/// modes, as a ring shows where half of the drivers are slow.
 #[test]
-fn fourier_modes_of_mixed_rings_follow_the_roots_of_their_own_number() {
+fn fourier_modes_of_heterogeneous_rings_follow_the_roots_of_their_own_number() {
     let linear = Linear { smallest: 1e-10, nonlinearity: 1e-2 };
     let table = |scenario: &Scenario| {
         let from = scenario.steps(60.0);
@@ -255,7 +260,8 @@ fn fourier_modes_of_mixed_rings_follow_the_roots_of_their_own_number() {
     let (mut compared, mut sharp) = (0, 0);
     for (vehicles, reaction_time, count, values) in CASES {
         for in_a_block in [true, false] {
-            let scenario = mixed(vehicles, reaction_time, &who(count, vehicles, in_a_block, values));
+            let scenario =
+                heterogeneous(vehicles, reaction_time, &overrides(count, vehicles, in_a_block, values));
             let t = table(&scenario);
             let column = |name: &str| t.floats(name).unwrap();
             let (rates, errors) = (column("growth_rate_per_s"), column("standard_error_per_s"));
@@ -280,25 +286,25 @@ fn fourier_modes_of_mixed_rings_follow_the_roots_of_their_own_number() {
     }
     println!("{compared} growth rates compared, {sharp} of them to better than a tenth");
     assert!(compared > 40 && 2 * sharp > compared);
-    let drowned = table(&mixed(50, 0.6, &who(25, 50, true, "reaction-time=0.9")));
-    let first = |name: &str| drowned.floats(name).unwrap()[0];
+    let covered = table(&heterogeneous(50, 0.6, &overrides(25, 50, true, "reaction-time=0.9")));
+    let first = |name: &str| covered.floats(name).unwrap()[0];
     assert!(first("growth_rate_per_s") > 10.0 * first("predicted_per_s"));
 }
 
-/// The classroom's question: at N = 50, Δ = 0.75 s five drivers without delay calm the ring and four do not, wherever
-/// they drive. Theory and simulation.
+/// At N = 50, Δ = 0.75 s five drivers without delay stabilize the ring and four do not, wherever they are on it: in theory
+/// and in the simulation.
 #[test]
-fn five_calm_drivers_calm_the_ring_wherever_they_are() {
+fn five_drivers_without_delay_stabilize_the_ring_wherever_they_are() {
     let mut scenario = Scenario::default();
     scenario.driver.reaction_time = 0.75;
-    let calming = stabilizing_drivers(&scenario, &parse_changes("reaction-time=0").unwrap()).unwrap();
-    assert_eq!(calming.smallest_calming_number, Some(5));
+    let answer = stabilizing_drivers(&scenario, &parse_changes("reaction-time=0").unwrap()).unwrap();
+    assert_eq!(answer.smallest_number, Some(5));
     for in_a_block in [true, false] {
         for (count, stable) in [(4, false), (5, true)] {
-            let scenario = mixed(50, 0.75, &who(count, 50, in_a_block, "reaction-time=0"));
+            let scenario = heterogeneous(50, 0.75, &overrides(count, 50, in_a_block, "reaction-time=0"));
             assert_eq!(Report::of(&scenario).stable, stable);
             let (_, rate, _) = dominant(&scenario);
-            assert_eq!(rate < 0.0, stable, "{count} calm drivers, block {in_a_block}: {rate}");
+            assert_eq!(rate < 0.0, stable, "{count} drivers without delay, block {in_a_block}: {rate}");
         }
     }
 }

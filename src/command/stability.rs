@@ -9,7 +9,10 @@ use ringroad::measurement::provenance::theory_to_csv;
 use ringroad::scenario::Scenario;
 use ringroad::stability::discrete_roots::DiscreteRoot;
 use ringroad::stability::homogeneous::Time;
-use ringroad::stability::report::{ModeRoot, Report, leading_factors, leading_roots};
+use ringroad::stability::jacobian::{self, JacobianEigenvalue, numerical_eigenvalues};
+use ringroad::stability::lane::lanes_of;
+use ringroad::stability::report::Report;
+use ringroad::stability::roots::{ModeRoot, leading_factors, leading_roots};
 use ringroad::stability::stability_diagram::{Sweep, sweep};
 use ringroad::stability::stabilizing_drivers::{StabilizingDrivers, parse_changes, stabilizing_drivers};
 use ringroad::stability::stable_ranges::{
@@ -43,6 +46,16 @@ fn define() -> Command {
                 "Add the K leading characteristic roots of every mode, in continuous time and in steps",
             ))
             .arg(
+                Arg::new("eigenvalues")
+                    .long("eigenvalues")
+                    .action(ArgAction::SetTrue)
+                    .conflicts_with("sweep")
+                    .help(
+                        "Numerical eigenvalues of the Jacobian of the least stable lane beside theory, as CSV, or in the JSON; \
+                         up to 200 vehicles",
+                    ),
+            )
+            .arg(
                 Arg::new("calm-with")
                     .long("calm-with")
                     .value_name("PARAMETER=VALUE,…")
@@ -51,27 +64,42 @@ fn define() -> Command {
     scenario_options(command)
 }
 
-/// Everything that was asked.
+/// Everything that was asked for; the fields are keys of the JSON.
 #[derive(Serialize)]
 struct Answer {
     #[serde(flatten)]
     report: Report,
     /// Numbers of vehicles in one lane of default drivers, intervals with both ends.
     stable_vehicles: Vec<(usize, usize)>,
-    /// Sensitivities of equal drivers, otherwise the default one, as many as in the lane of the report; 1/s.
+    /// Sensitivities of homogeneous drivers that have the other parameters of the default one, as many as in the lane of the
+    /// report; 1/s.
     stable_sensitivities_per_s: Vec<(f64, f64)>,
     #[serde(flatten)]
-    calming: Option<StabilizingDrivers>,
+    stabilizing: Option<StabilizingDrivers>,
     #[serde(skip_serializing_if = "Option::is_none")]
     roots: Option<Vec<ModeRoot>>,
     /// The same of the simulation, with the growth factors z of a step.
     #[serde(skip_serializing_if = "Option::is_none")]
     roots_discrete: Option<Vec<DiscreteRoot>>,
+    /// Numerical eigenvalues of the Jacobian.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    eigenvalues: Option<Vec<JacobianEigenvalue>>,
 }
 
-fn answer(scenario: &Scenario, calm: Option<&String>, roots: Option<usize>) -> Result<Answer, Failure> {
+/// The numerical eigenvalues of the Jacobian of the least stable lane.
+fn eigenvalues(scenario: &Scenario, lane: usize) -> Result<Vec<JacobianEigenvalue>, Error> {
+    let drivers = lanes_of(scenario).swap_remove(lane - 1).drivers;
+    numerical_eigenvalues(&drivers, scenario.length).map_err(|e| e.within("--eigenvalues"))
+}
+
+fn answer(
+    scenario: &Scenario,
+    changes: Option<&String>,
+    roots: Option<usize>,
+    with_eigenvalues: bool,
+) -> Result<Answer, Failure> {
     let report = Report::of(scenario);
-    let calming = match calm {
+    let stabilizing = match changes {
         Some(text) => Some(stabilizing_drivers(scenario, &parse_changes(text)?)?),
         None => None,
     };
@@ -88,9 +116,10 @@ fn answer(scenario: &Scenario, calm: Option<&String>, roots: Option<usize>) -> R
             delay,
             time,
         ),
-        calming,
+        stabilizing,
         roots: roots.map(|count| leading_roots(scenario, report.lane - 1, count)),
         roots_discrete: roots.map(|count| leading_factors(scenario, report.lane - 1, count)),
+        eigenvalues: with_eigenvalues.then(|| eigenvalues(scenario, report.lane)).transpose()?,
         report,
     })
 }
@@ -104,6 +133,17 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         output.write(&theory_to_csv(&table, &scenario, &format!("stability --sweep {text}")))?;
         return Ok(ExitCode::SUCCESS);
     }
+    let json = matches.get_flag("json");
+    let with_eigenvalues = matches.get_flag("eigenvalues");
+    if with_eigenvalues && !json {
+        if let Some(other) = ["roots", "calm-with"].into_iter().find(|&name| matches.contains_id(name)) {
+            let allowed = "a table by itself, or --json for one answer with everything";
+            return Err(Error::new("--eigenvalues", format!("with --{other}"), allowed).into());
+        }
+        let table = jacobian::table(&eigenvalues(&scenario, Report::of(&scenario).lane)?);
+        output.write(&theory_to_csv(&table, &scenario, "stability --eigenvalues"))?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let roots = match matches.get_one::<String>("roots") {
         None => None,
         Some(text) => Some(
@@ -113,8 +153,8 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
                 .ok_or_else(|| Error::new("--roots", format!("“{text}”"), "a whole number from 1 to 100"))?,
         ),
     };
-    let answer = answer(&scenario, matches.get_one("calm-with"), roots)?;
-    let text = if matches.get_flag("json") {
+    let answer = answer(&scenario, matches.get_one("calm-with"), roots, with_eigenvalues)?;
+    let text = if json {
         serde_json::to_string_pretty(&answer).expect("plain data") + "\n"
     } else {
         in_words(&scenario, &answer)
@@ -123,17 +163,17 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A line of a name and what there is to say.
+/// Adds a line: a name, and what belongs to it.
 fn line(text: &mut String, name: &str, value: &str) {
     let _ = writeln!(text, "{name:<34}{value}");
 }
 
-/// A rate with its sign, also where it is small.
+/// A rate with its sign, in a form that shows digits also where it is small.
 fn per_second(x: f64) -> String {
     if x != 0.0 && x.abs() < 1e-4 { format!("{x:+.3e} 1/s") } else { format!("{x:+.6} 1/s") }
 }
 
-/// Intervals of numbers of vehicles; where nobody moves they are marked.
+/// Intervals of numbers of vehicles; those of the jam are marked.
 fn numbers(scenario: &Scenario, intervals: &[(usize, usize)]) -> Vec<String> {
     let mut parts = Vec::new();
     for &(a, b) in intervals {
@@ -150,7 +190,7 @@ fn numbers(scenario: &Scenario, intervals: &[(usize, usize)]) -> Vec<String> {
 
 fn in_words(scenario: &Scenario, answer: &Answer) -> String {
     let report = &answer.report;
-    let mut text = report.verdict() + "\n\n";
+    let mut text = report.sentence() + "\n\n";
     let seconds = |x: Option<f64>| {
         x.map_or("none".to_owned(), |x| if x < 1e6 { format!("{x:.6} s") } else { format!("{x:.3e} s") })
     };
@@ -162,8 +202,8 @@ fn in_words(scenario: &Scenario, answer: &Answer) -> String {
     if scenario.lanes > 1 {
         line(&mut text, "least stable lane", &report.lane.to_string());
     }
-    let kind = if report.equal_drivers { "equal drivers" } else { "drivers that differ" };
-    line(&mut text, "vehicles", &format!("{}, {kind}", report.vehicles));
+    let which = if report.homogeneous { "equal drivers" } else { "drivers that differ" };
+    line(&mut text, "vehicles", &format!("{}, {which}", report.vehicles));
     line(
         &mut text,
         "equilibrium",
@@ -193,7 +233,7 @@ fn in_words(scenario: &Scenario, answer: &Answer) -> String {
     if report.all_roots_found == Some(false) {
         line(&mut text, "note", "the argument principle counts more growing roots than were followed");
     }
-    if !report.equal_drivers {
+    if !report.homogeneous {
         let scale = report.critical_scale_discrete.map_or("none".to_owned(), |x| format!("{x:.6}"));
         line(&mut text, "critical scale of reaction times", &scale);
     }
@@ -201,13 +241,13 @@ fn in_words(scenario: &Scenario, answer: &Answer) -> String {
     line(&mut text, "stable numbers of vehicles a lane", &joined(numbers(scenario, &answer.stable_vehicles)));
     let sensitivities = answer.stable_sensitivities_per_s.iter().map(|(a, b)| format!("{a:.4} … {b:.4}"));
     line(&mut text, "stable sensitivities", &format!("{} 1/s", joined(sensitivities.collect())));
-    if let Some(calming) = &answer.calming {
-        let number = calming.smallest_calming_number;
-        let said =
-            number.map_or("no number calms the ring".to_owned(), |n| format!("{n} of {}", calming.vehicles));
+    if let Some(stabilizing) = &answer.stabilizing {
+        let number = stabilizing.smallest_number;
+        let said = number
+            .map_or("no number calms the ring".to_owned(), |n| format!("{n} of {}", stabilizing.vehicles));
         line(&mut text, "calming drivers needed", &said);
-        let last = number.unwrap_or(calming.vehicles);
-        let rates = calming.numbers.iter().zip(&calming.max_growth_rates_discrete_per_s);
+        let last = number.unwrap_or(stabilizing.vehicles);
+        let rates = stabilizing.numbers.iter().zip(&stabilizing.max_growth_rates_discrete_per_s);
         for (n, rate) in rates.filter(|(n, _)| **n <= last) {
             line(&mut text, &format!("  growth rate with {n}"), &per_second(*rate));
         }

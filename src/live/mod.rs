@@ -13,9 +13,10 @@ use crate::scenario::driver::{Driver, Equilibrium, equilibrium};
 use crate::scenario::link;
 use crate::scenario::parameters::{Field, RoadField, parameter};
 use crate::simulation::Simulation;
-use crate::stability::report::{Roots, roots_of_lane};
+use crate::stability::lane::Lane;
+use crate::stability::roots::LaneRoots;
 use crate::stability::stability_diagram::StabilityDiagram;
-use crate::stability::summary::{self, StabilitySummary, verdict};
+use crate::stability::summary::StabilitySummary;
 use std::collections::VecDeque;
 
 /// Seconds between two columns of the map, rounded to whole steps.
@@ -121,7 +122,7 @@ impl Live {
             next: 0,
             changes: 0,
             balance: Vec::new(),
-            equilibrium: Equilibrium { speed: 0.0, density: 0.0, flow: 0.0 },
+            equilibrium: Equilibrium::default(),
             verdict: StabilitySummary::default(),
             stale: true,
             made: 0,
@@ -151,7 +152,7 @@ impl Live {
             let lanes: Vec<Vec<Driver>> = (self.lanes().iter())
                 .map(|lane| lane.iter().map(|&j| *self.simulation.driver(j)).collect())
                 .collect();
-            self.verdict = verdict(&lanes, scenario.length, scenario.time_step);
+            self.verdict = StabilitySummary::of(&lanes, scenario.length, scenario.time_step);
         }
         &self.verdict
     }
@@ -275,12 +276,12 @@ impl Live {
 
     /// The characteristic roots of the lane that the verdict speaks of: of some `most` modes, each with so many
     /// `others` beside the dominant one.
-    pub fn roots(&mut self, others: usize, most: usize) -> Roots {
+    pub fn roots(&mut self, others: usize, most: usize) -> LaneRoots {
         let place = self.verdict().lane - 1;
         let drivers = self.lanes()[place].iter().map(|&j| *self.simulation.driver(j)).collect();
         let scenario = self.simulation.scenario();
-        let lane = summary::lane(drivers, scenario.time_step);
-        roots_of_lane(&lane, scenario.length, scenario.time_step, others, most)
+        let lane = Lane::new(drivers, scenario.time_step);
+        LaneRoots::of(&lane, scenario.length, scenario.time_step, others, most)
     }
 
     /// Growth of the modes of that lane since the last change, a row for each: the table `growth`.
@@ -546,7 +547,7 @@ impl Live {
             lanes.push(lane.to_vec());
             rest = others;
         }
-        Ok(verdict(&lanes, scenario.length, scenario.time_step))
+        Ok(StabilitySummary::of(&lanes, scenario.length, scenario.time_step))
     }
 
     /// What theory would say at that reaction time with so many vehicles on all lanes, both as typed; without a number,
@@ -565,9 +566,10 @@ impl Live {
     /// The stability plane of the lane that the verdict speaks of: of its drivers where they are alike, else of
     /// those without an exception. Its driver has the reaction time where the lane stands in the plane.
     pub fn plane(&mut self) -> StabilityDiagram {
-        let &StabilitySummary { alike, lane, .. } = self.verdict();
+        let &StabilitySummary { homogeneous, lane, .. } = self.verdict();
         let settled = self.settled();
-        let first = (0..self.simulation.vehicles()).find(|&j| alike && self.simulation.lane(j) + 1 == lane);
+        let first =
+            (0..self.simulation.vehicles()).find(|&j| homogeneous && self.simulation.lane(j) + 1 == lane);
         let driver = first.map_or(settled.driver, |j| *self.simulation.driver(j));
         StabilityDiagram { driver, ..StabilityDiagram::of(&settled) }
     }
@@ -644,10 +646,10 @@ mod tests {
         // A lane of exceptions only has a plane of its own; a lane that is mixed has that of the others.
         let mut live = run("vehicles=50&lanes=2&driver=1-25:sensitivity=2,reaction-time=0.4", 0.0);
         let (verdict, driver) = (*live.verdict(), live.plane().driver);
-        assert_eq!((verdict.lane, verdict.alike), (1, true));
+        assert_eq!((verdict.lane, verdict.homogeneous), (1, true));
         assert_eq!((driver.sensitivity, driver.reaction_time), (2.0, 0.4));
         let mut live = run("reaction-time=0.7&driver=1-25:sensitivity=2,reaction-time=0.4", 0.0);
-        assert!(!live.verdict().alike);
+        assert!(!live.verdict().homogeneous);
         assert_eq!((live.plane().driver.sensitivity, live.plane().driver.reaction_time), (1.0, 0.7));
     }
 

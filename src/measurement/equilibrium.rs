@@ -38,10 +38,6 @@ impl Equilibria {
     }
 }
 
-fn law(driver: &Driver) -> (f64, f64, f64) {
-    (driver.max_speed, driver.sensitivity, driver.min_headway)
-}
-
 fn values(drivers: &[Driver], length: f64) -> Row {
     let n = drivers.len();
     let Some(lane) = equilibrium(drivers, length) else {
@@ -55,7 +51,7 @@ fn values(drivers: &[Driver], length: f64) -> Row {
             top: Capacity { density: none, flow: none },
         };
     };
-    let equal = drivers.iter().all(|d| law(d) == law(&drivers[0]));
+    let equal = drivers.iter().all(|d| d.law() == drivers[0].law());
     let slope = if equal {
         drivers[0].slope(length / n as f64)
     } else if lane.speed == 0.0 {
@@ -109,7 +105,7 @@ impl Probe for Equilibria {
             self.drivers.extend(in_lane.map(|j| *simulation.driver(j)));
             let alike = |known: &Vec<Driver>| {
                 known.len() == self.drivers.len()
-                    && known.iter().zip(&self.drivers).all(|(a, b)| law(a) == law(b))
+                    && known.iter().zip(&self.drivers).all(|(a, b)| a.law() == b.law())
             };
             if self.known[lane].as_ref().is_some_and(alike) {
                 continue;

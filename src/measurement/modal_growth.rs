@@ -61,7 +61,7 @@ impl Theory {
     /// its root cannot be followed.
     fn rates(&self, modes: usize, time_step: f64) -> &[f64] {
         let time = Time::Steps(time_step);
-        let rate = |q: usize| match self.ring.equal() {
+        let rate = |q: usize| match self.ring.homogeneous() {
             _ if 2 * q > self.ring.vehicles() => f64::NAN,
             Some((ring, delay)) => ring.root(q, delay, time).re,
             None if self.ring.is_jammed() => 0.0,

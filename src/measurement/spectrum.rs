@@ -2,7 +2,7 @@
 
 use crate::scenario::driver::{Driver, equilibrium};
 use crate::simulation::Simulation;
-use crate::stability::driver_classes::{DriverClasses, slopes};
+use crate::stability::driver_classes::DriverClasses;
 
 /// Amplitudes of the modes of δ_k = h_k − h_k(v∞), where k counts the vehicles of the lane downstream:
 /// `A_q = (2/n)·|Σ_k δ_k·e^{2πi·qk/n}|`, half of that for q = n/2; so a wave of ±1 m has amplitude 1 m.
@@ -97,7 +97,7 @@ impl Spectrum {
             && self.order.iter().zip(&self.drivers).enumerate().all(|(k, (&j, driver))| {
                 simulation.lane(j) == self.lane
                     && simulation.leader(j) == self.order[(k + 1) % n]
-                    && law(simulation.driver(j)) == law(driver)
+                    && simulation.driver(j).law() == driver.law()
             })
     }
 
@@ -113,23 +113,19 @@ impl Spectrum {
         self.drivers.clear();
         self.drivers.extend(self.order.iter().map(|&j| *simulation.driver(j)));
         self.equilibrium.clear();
+        self.slopes.clear();
         if let Some(first) = self.drivers.first() {
             // Equal drivers share the ring, also where it is jammed and the law has no inverse.
-            let equal = self.drivers.iter().all(|d| law(d) == law(first));
-            let speed = equilibrium(&self.drivers, length).map_or(0.0, |e| e.speed);
-            let headway = |d: &Driver| if equal { length / n as f64 } else { d.headway(speed) };
+            let equal = self.drivers.iter().all(|d| d.law() == first.law());
+            let common = equilibrium(&self.drivers, length).unwrap_or_default();
+            let headway = |d: &Driver| if equal { length / n as f64 } else { d.headway(common.speed) };
             self.equilibrium.extend(self.drivers.iter().map(headway));
+            self.slopes.extend(self.drivers.iter().map(|d| common.slope(&d.law())));
         }
-        self.slopes = slopes(&self.drivers, length);
         self.circle.clear();
         self.circle.extend((0..n).map(|k| {
             let angle = 2.0 * std::f64::consts::PI * k as f64 / n as f64;
             (libm::cos(angle), libm::sin(angle))
         }));
     }
-}
-
-/// What of a driver decides on the equilibrium.
-fn law(driver: &Driver) -> (f64, f64, f64) {
-    (driver.max_speed, driver.sensitivity, driver.min_headway)
 }

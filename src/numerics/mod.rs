@@ -1,5 +1,6 @@
 //! Numbers: functions, vectors, random draws, statistics. Nothing here knows of traffic.
 
+pub mod bisection;
 pub mod complex;
 pub mod exp;
 pub mod lambert_w;

@@ -1,5 +1,6 @@
 //! What a sample says: mean, standard deviation, quantiles, and a 95 % confidence interval of the mean.
 
+use crate::numerics::bisection::last_bit;
 use std::f64::consts::FRAC_2_PI;
 
 /// The 0.975 quantile of the normal distribution.
@@ -105,18 +106,8 @@ impl Student {
     /// The t with P(|T| ≤ t) = 0.95 for so many degrees of freedom, by bisection to the last bit.
     pub fn quantile_975(&mut self, freedom: usize) -> f64 {
         *self.0.entry(freedom).or_insert_with(|| {
-            let (mut low, mut high) = (1.0, 13.0);
-            loop {
-                let middle = 0.5 * (low + high);
-                if middle <= low || middle >= high {
-                    return middle;
-                }
-                if student_central(middle, freedom) < 0.95 {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
+            let (low, high) = last_bit(1.0, 13.0, |t| student_central(t, freedom) < 0.95);
+            0.5 * (low + high)
         })
     }
 }

@@ -5,11 +5,13 @@ use super::{Figure, FigureTable, Outcome, Size, Task, TaskResult, column, indica
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::measurement::probe::Probe;
+use crate::numerics::bisection::Whole;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected};
+use crate::reproduction::claim::{Claim, Estimate, Expected, short};
 use crate::scenario::driver::Driver;
 use crate::simulation::Simulation;
 use crate::stability::homogeneous::{HomogeneousRing, Time};
+use crate::stability::jacobian::{numerical_eigenvalues, smallest_distance};
 
 const ID: &str = "stability";
 
@@ -57,8 +59,7 @@ fn start(size: Size, piece: usize) -> Box<dyn Task> {
     Box::new(Search {
         vehicles: rings(size)[piece - delays.len()],
         until: size.choose(3000.0, 2000.0),
-        fades: 20,
-        growing: 160,
+        delays: Whole::new(20, 160),
         run: None,
     })
 }
@@ -82,21 +83,17 @@ fn growth(reaction_time: f64) -> Vec<f64> {
 struct Search {
     vehicles: usize,
     until: f64,
-    fades: u32,
-    growing: u32,
+    /// Delays, in steps: at the lower end the wave fades, at the upper it grows.
+    delays: Whole,
     /// The run at the delay between the two.
     run: Option<(Simulation, Box<dyn Probe>)>,
 }
 
 impl Search {
-    fn middle(&self) -> u32 {
-        u32::midpoint(self.fades, self.growing)
-    }
-
-    fn begin(&self) -> (Simulation, Box<dyn Probe>) {
+    fn begin(&self, steps: usize) -> (Simulation, Box<dyn Probe>) {
         // Far from the threshold a wave shows soon what it does.
-        let until = if self.growing - self.fades > 16 { 1000.0 } else { self.until };
-        let mut scenario = nudged(f64::from(self.middle()) * STEP, 1e-3, until);
+        let until = if self.delays.fails - self.delays.holds > 16 { 1000.0 } else { self.until };
+        let mut scenario = nudged(steps as f64 * STEP, 1e-3, until);
         scenario.vehicles = self.vehicles;
         let growth = Measurement::Growth {
             every: 1.0,
@@ -117,8 +114,8 @@ impl Task for Search {
     /// The middle between the two, in steps.
     fn advance(&mut self, updates: u64) -> Option<TaskResult> {
         let mut steps = updates / self.vehicles as u64;
-        while self.growing - self.fades > 1 {
-            let (mut simulation, mut probe) = self.run.take().unwrap_or_else(|| self.begin());
+        while let Some(middle) = self.delays.middle() {
+            let (mut simulation, mut probe) = self.run.take().unwrap_or_else(|| self.begin(middle));
             while !simulation.is_finished() {
                 if steps == 0 {
                     self.run = Some((simulation, probe));
@@ -131,10 +128,9 @@ impl Task for Search {
             let rate = column(&probe.table(), "growth_rate_per_s")[0];
             // No rate: the wave had left the linear regime by the start of the fit.
             let grows = simulation.collision().is_some() || rate.is_nan() || rate > 0.0;
-            let middle = self.middle();
-            if grows { self.growing = middle } else { self.fades = middle }
+            self.delays.narrow(middle, !grows);
         }
-        Some(TaskResult { columns: vec![vec![f64::from(self.fades) + 0.5]] })
+        Some(TaskResult { columns: vec![vec![self.delays.holds as f64 + 0.5]] })
     }
 }
 
@@ -312,6 +308,16 @@ fn plot(
     }
 }
 
+/// The smallest distance between two numerical eigenvalues of the Jacobian, 1/s. The uncertainty is twice the largest distance
+/// of one of them from the closed form, as two of them may be wrong by so much.
+fn eigenvalue_distance(vehicles: usize) -> Estimate {
+    let found = numerical_eigenvalues(&vec![Driver::default(); vehicles], 1000.0);
+    found.map_or(Estimate::exact(f64::NAN), |found| {
+        let error = found.iter().map(|e| e.distance_per_s).fold(0.0, f64::max);
+        Estimate::new(smallest_distance(&found), 2.0 * error)
+    })
+}
+
 fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<Claim> {
     let about = |claim: &str, paper, tolerance, ours, method: &str| {
         Claim::new(ID, claim, "s", Expected::About(paper, tolerance), ours, method)
@@ -327,7 +333,21 @@ fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<
         known.windows(2).filter(|w| (w[0] < 0.0) != (w[1] < 0.0)).count() as f64
     };
     let tolerance = "tolerance 0.05 s, the interval at which the paper looks.";
+    let eigenvalues = eigenvalue_distance(50);
     vec![
+        Claim::new(
+            ID,
+            "J has N − 1 distinct eigenvalues, hence is diagonalizable: smallest distance between two, N = 50",
+            "1/s",
+            Expected::MoreThan(0.0),
+            eigenvalues,
+            format!(
+                "Numerical eigenvalues of the matrix J at Δ = 0. The largest distance of one of them from the closed form \
+                 −c(1 − e^(2πiq/N)) is {} 1/s, and the uncertainty twice that.",
+                short(0.5 * eigenvalues.uncertainty)
+            ),
+        )
+        .or("N = 133", eigenvalue_distance(133)),
         about(
             "critical reaction time τ at N = 50, linear theory",
             0.7,

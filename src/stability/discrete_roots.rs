@@ -5,19 +5,32 @@
 //! m + 1 numbers for which that is possible, |arg w + 2πk| ≤ (m + 1)π, and as many roots: one each. Given θ, the
 //! triangle 0, 1, z gives r = sin ψ/sin(ψ − θ) and ρ = sin θ/sin(ψ − θ); what is left, m·ln r + ln ρ = ln|w|, is
 //! solved by bisection between the ends of the interval in which the triangle exists, where the left side goes to ∓∞. Only where
-//! w is negative can roots be real, and are found on the axis.
+//! w is negative can roots be real; those are found on the axis.
+//!
+//! ```
+//! use ringroad::stability::homogeneous::HomogeneousRing;
+//!
+//! let ring = HomogeneousRing { vehicles: 50, slope: 0.731_616 };
+//! // A delay of 75 steps of 0.01 s: the polynomial has degree 76, and so many roots.
+//! let roots = ring.leading_factors(8, 75, 0.01, 100);
+//! assert_eq!(roots.len(), 76);
+//! assert!(roots.iter().all(|root| root.residual < 1e-10));
+//! assert!(roots[0].real_per_s > 0.0 && roots[1].real_per_s < 0.0);
+//! ```
 
 use super::homogeneous::{HomogeneousRing, Time};
+use crate::numerics::bisection::last_bit;
 use crate::numerics::complex::{Complex64, arg, exp, ln, norm};
 use serde::Serialize;
 use std::f64::consts::PI;
 
 /// A root of a mode in the steps of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DiscreteRoot {
     /// q.
     pub mode: usize,
-    /// k; of drivers that differ, the number at equal drivers, from which it was followed.
+    /// k; of heterogeneous drivers, that of the root of homogeneous drivers from which it was followed.
     pub branch: i32,
     /// Re z.
     pub factor_real: f64,
@@ -27,7 +40,7 @@ pub struct DiscreteRoot {
     pub real_per_s: f64,
     /// arg z/dt, 1/s.
     pub imaginary_per_s: f64,
-    /// What rounding has left of the equation (z − 1)/dt = d_q·z^−m, relative to max(1, |s|); of drivers that differ, as
+    /// What rounding leaves of the equation (z − 1)/dt = d_q·z^−m, relative to max(1, |s|); of heterogeneous drivers, as
     /// a change of the root.
     pub residual: f64,
 }
@@ -50,7 +63,7 @@ impl DiscreteRoot {
 
 impl HomogeneousRing {
     /// The `count` leading roots of a mode, all of them where there are fewer, for a delay of m steps of `time_step`
-    /// seconds, by falling |z|. Both leading numbers and |z| go with the turn of z, so numbers up to ±`count` hold
+    /// seconds, by falling |z|. As |k| grows, the argument of z grows and |z| falls, so the numbers up to ±`count` hold
     /// them all.
     pub fn leading_factors(
         &self,
@@ -82,7 +95,7 @@ impl HomogeneousRing {
     }
 }
 
-/// Root number k of z^m·(z − 1) = w; none where there is no such number.
+/// Root number k of z^m·(z − 1) = w; `None` where there is no such root.
 fn factor(w: Complex64, m: f64, k: i32) -> Option<Complex64> {
     let (size, turn) = (norm(w), arg(w) + 2.0 * PI * f64::from(k));
     let most = (m + 1.0) * PI;
@@ -119,7 +132,7 @@ fn factor(w: Complex64, m: f64, k: i32) -> Option<Complex64> {
     if turn < 0.0 {
         z = z.conj();
     }
-    // What the small angles have lost, by Newton's method on the logarithm.
+    // Small angles have lost digits: Newton's method on the logarithm restores them.
     for _ in 0..3 {
         let mut rest = m * ln(z) + ln(z - 1.0) - ln(w);
         rest.im -= 2.0 * PI * (rest.im / (2.0 * PI)).round();
@@ -132,27 +145,18 @@ fn power(r: f64, m: f64) -> f64 {
     crate::numerics::exp::exp(m * libm::log(r))
 }
 
-/// Where a rising function has a value, between two places.
-fn rising(f: impl Fn(f64) -> f64, value: f64, mut low: f64, mut high: f64) -> f64 {
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            return middle;
-        }
-        if f(middle) < value {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+/// Where a rising function has a value, between `low` and `high`.
+fn rising(f: impl Fn(f64) -> f64, value: f64, low: f64, high: f64) -> f64 {
+    let (below, above) = last_bit(low, high, |x| f(x) < value);
+    0.5 * (below + above)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// As many roots as the polynomial z^{m+1} − z^m − w has, all different, each solving it, with its sum (1; 1 + w
-    /// without a delay) and its product ±w: none is missing.
+    /// There are as many roots as the polynomial z^{m+1} − z^m − w has, all different, and each solves it. Their sum is 1
+    /// (1 + w without a delay) and their product ±w, so none is missing.
     #[test]
     fn all_roots_of_the_polynomial() {
         let (mut real, mut modes) = (0, 0);
@@ -183,7 +187,7 @@ mod tests {
                         assert!(norm(product - product_should) < 1e-9, "{place}: product {product}");
                         real += usize::from(roots.iter().any(|r| r.factor_imaginary.abs() < 1e-12));
                         modes += 1;
-                        // The leading ones are the same when only they are asked for.
+                        // The leading roots are the same when fewer are asked for.
                         for (leading, root) in ring.leading_factors(q, m, time_step, 5).iter().zip(&roots) {
                             assert!((leading.real_per_s - root.real_per_s).abs() < 1e-9, "{place}");
                         }

@@ -1,21 +1,36 @@
-//! Drivers that differ: roots and critical reaction times of the exact characteristic equation.
+//! Heterogeneous drivers: roots and critical reaction times of the exact characteristic equation.
 //!
 //! Once round the ring, a deviation e^{st} must return to itself: **Π_j u_j = 1, u_j = 1 + g(s)·e^{sΔ_j}/c_j**, with
 //! g(s) = s in continuous time and (e^{s·dt} − 1)/dt in steps ([`Time`]). In logarithms, mode q is the solution of
 //!
 //! Σ_j ln u_j = 2πiq,
 //!
-//! each logarithm continued from that of equal drivers, where every u_j = e^{2πiq/N}. So a root keeps the number of its
-//! mode while slopes and delays change gradually from equal ones to the real ones. Each step of the
-//! way is predicted by the tangent and corrected by Newton's method; a step that needs more than a few
-//! corrections is tried again at half the length. Where two roots meet on the way (u = 0, or the derivative
-//! of the sum is 0), real parameters lead straight into the meeting; then the way is taken through complex ones.
+//! each logarithm continued from that of homogeneous drivers, where every u_j = e^{2πiq/N}. So a root keeps the number of its
+//! mode while slopes and delays change gradually from equal ones to the real ones. This change is made in steps of the
+//! parameter σ from 0 to 1: the tangent predicts the root, Newton's method corrects it, and a step that needs more than a few
+//! corrections is tried again at half the length. Where two roots meet between (u = 0, or the derivative of the sum is 0),
+//! Newton's method fails for real σ; then σ takes a path through complex numbers, around the meeting.
 //!
-//! Nothing in that shows that no root was lost, so [`DriverClasses::unstable_roots`] counts those with Re s > 0 by the
+//! This method cannot show that no root was lost. So [`DriverClasses::unstable_roots`] counts the roots with Re s > 0 by the
 //! argument principle.
+//!
+//! ```
+//! use ringroad::stability::driver_classes::DriverClasses;
+//! use ringroad::stability::homogeneous::Time;
+//!
+//! // Fifty drivers with the slope 0.731616 /s; some without delay, the others with 0.75 s.
+//! let with = |quick: usize| {
+//!     DriverClasses::new((0..50).map(|j| (0.731_616, if j < quick { 0.0 } else { 0.75 })))
+//! };
+//! let time = Time::Steps(0.01);
+//! assert!(with(4).fastest(time).unwrap().root.re > 0.0);
+//! assert!(with(5).fastest(time).unwrap().root.re < 0.0);
+//! assert_eq!(with(5).unstable_roots(time), Some(0));
+//! ```
 
-use super::driver_classes::DriverClasses;
+use super::driver_classes::{DriverClass, DriverClasses};
 use super::homogeneous::{HomogeneousRing, Mode, Time, dominant_root};
+use crate::numerics::bisection::{Whole, last_bit};
 use crate::numerics::complex::{Complex64, arg, exp, exp_m1, ln, ln_1p, norm};
 use crate::numerics::lambert_w::lambert_w;
 use std::f64::consts::PI;
@@ -23,8 +38,8 @@ use std::f64::consts::PI;
 /// Beyond this real part of ln x, 1 + x is x to the last bit.
 const LARGE: f64 = 40.0;
 
-/// One kind on the way from the mean driver (σ = 0) to itself (σ = 1): ln(1/c) and the share of the mean delay change
-/// linearly.
+/// A driver class as a function of σ, from the mean driver (σ = 0) to the class itself (σ = 1): ln(1/c) and the delay as a
+/// share of the mean delay change linearly.
 #[derive(Clone, Copy, Debug)]
 struct Path {
     count: f64,
@@ -33,7 +48,7 @@ struct Path {
     share_change: f64,
 }
 
-/// Where on the way: the delays are τ times their shares.
+/// A root at some σ; the delays are τ times their shares.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     s: Complex64,
@@ -57,9 +72,9 @@ enum Unknown {
     Crossing,
 }
 
-/// A mode on its way. `turns` are the continued arguments of the u_j.
+/// A mode that is followed from σ = 0 to 1. `turns` are the continued arguments of the u_j.
 #[derive(Clone, Debug)]
-struct Walker<'a> {
+struct Continuation<'a> {
     paths: &'a [Path],
     time: Time,
     goal: f64,
@@ -68,8 +83,8 @@ struct Walker<'a> {
     turns: Vec<f64>,
 }
 
-impl Walker<'_> {
-    /// Evaluates at a place; the arguments of the u_j are taken nearest to `turns`, and written there.
+impl Continuation<'_> {
+    /// Evaluates the sum at a place. The arguments of the u_j are taken nearest to `turns`, and written there.
     fn sum(&self, place: Place, turns: &mut [f64]) -> Sum {
         let (g, slope) = self.time.derivative(place.s);
         let log_g = ln(g);
@@ -116,7 +131,7 @@ impl Walker<'_> {
         }
     }
 
-    /// Newton's method at the σ of `place`; whether it converged in `most` steps. Places and turns move along.
+    /// Newton's method at the σ of `place`, changing `place` and `turns`; whether it converged in `most` steps.
     fn correct(&self, place: &mut Place, turns: &mut [f64], most: usize) -> bool {
         let mut last = f64::INFINITY;
         for _ in 0..most {
@@ -136,8 +151,9 @@ impl Walker<'_> {
         false
     }
 
-    /// The way from σ = 0 to 1, bent into the complex plane by `detour`; `None` where it ends in a meeting of roots.
-    fn arrive(mut self, detour: f64) -> Option<Place> {
+    /// Follows the mode from σ = 0 to 1, along a path that `detour` bends into the complex plane; `None` where the path ends
+    /// at a meeting of roots.
+    fn follow(mut self, detour: f64) -> Option<Place> {
         let (mut place, mut turns) = (self.place, self.turns.clone());
         if !self.correct(&mut place, &mut turns, 30) {
             return None;
@@ -175,15 +191,16 @@ impl Walker<'_> {
     }
 }
 
-/// All roots that were followed, and whether that is all of them.
+/// All roots that were followed, and the count that shows whether growing ones are missing.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Followed {
     /// Mode by mode, in order of q.
     pub modes: Vec<Mode>,
     /// Roots with Re s > 0 among them, conjugates counted.
     pub unstable: usize,
-    /// Roots with Re s > 0 by the argument principle; `None` where it was not computed: on rings too large
-    /// for it, or where a root lies on the imaginary axis.
+    /// Roots with Re s > 0 by the argument principle; `None` where it was not computed: on rings too large for it, where a
+    /// root lies on the imaginary axis, or with very long steps.
     pub counted: Option<usize>,
 }
 
@@ -194,21 +211,23 @@ impl Followed {
     }
 }
 
-/// Rings larger than this are followed in a choice of modes only, and not counted.
+/// In rings of more vehicles only some modes are followed, and unstable roots are not counted.
 pub const ALL_MODES: usize = 1000;
 
 impl DriverClasses {
-    /// Slopes far below all that matters are held above 0, so that their logarithms exist.
+    /// The paths of all classes, the slope (1/s) of the mean driver, and the mean delay (s). Slopes are held above 1e-300, so
+    /// that their logarithms exist.
     fn paths(&self) -> (Vec<Path>, f64, f64) {
         let n = self.vehicles() as f64;
         let log = |slope: f64| -libm::log(slope.max(1e-300));
-        let mean_log = self.classes().iter().map(|k| k.count as f64 * log(k.slope)).sum::<f64>() / n;
+        let mean_log =
+            self.classes().iter().map(|class| class.count as f64 * log(class.slope)).sum::<f64>() / n;
         let tau = self.mean_delay();
-        let path = |kind: &super::driver_classes::DriverClass| Path {
-            count: kind.count as f64,
+        let path = |class: &DriverClass| Path {
+            count: class.count as f64,
             log_start: mean_log,
-            log_change: log(kind.slope) - mean_log,
-            share_change: if tau > 0.0 { kind.delay / tau - 1.0 } else { 0.0 },
+            log_change: log(class.slope) - mean_log,
+            share_change: if tau > 0.0 { class.delay / tau - 1.0 } else { 0.0 },
         };
         (self.classes().iter().map(path).collect(), crate::numerics::exp::exp(-mean_log), tau)
     }
@@ -217,15 +236,15 @@ impl DriverClasses {
     pub fn residual(&self, s: Complex64, time: Time) -> f64 {
         let (g, slope) = time.derivative(s);
         let (mut sum, mut by_s) = (Complex64::ZERO, Complex64::ZERO);
-        for kind in self.classes() {
-            let (n, y) = (kind.count as f64, exp(s * kind.delay) / kind.slope);
+        for class in self.classes() {
+            let (n, y) = (class.count as f64, exp(s * class.delay) / class.slope);
             sum += n * ln_1p(g * y);
-            by_s += n * y * (slope + g * kind.delay) / (1.0 + g * y);
+            by_s += n * y * (slope + g * class.delay) / (1.0 + g * y);
         }
         norm(exp_m1(sum) / by_s)
     }
 
-    /// The root of mode q, followed from branch k of equal drivers. `None` where it could not be followed, or
+    /// The root (1/s) of mode q, followed from branch k of homogeneous drivers. `None` where it could not be followed, or
     /// where no root is on that branch (several branches exist only where there is a delay).
     pub fn follow(&self, q: usize, k: i32, time: Time) -> Option<Complex64> {
         let (paths, slope, tau) = self.paths();
@@ -252,7 +271,7 @@ impl DriverClasses {
             lambert_w(k, d * delay) / delay
         };
         let goal = 2.0 * PI * q as f64;
-        let walker = Walker {
+        let continuation = Continuation {
             paths,
             time,
             goal,
@@ -260,11 +279,12 @@ impl DriverClasses {
             place: Place { s: start, tau, sigma: Complex64::ZERO },
             turns: vec![goal / self.vehicles() as f64; paths.len()],
         };
-        [0.0, 0.5, -0.5, 1.5].into_iter().find_map(|bend| walker.clone().arrive(bend)).map(|place| place.s)
+        let mut detours = [0.0, 0.5, -0.5, 1.5].into_iter();
+        detours.find_map(|detour| continuation.clone().follow(detour)).map(|place| place.s)
     }
 
-    /// The dominant root of every mode, and the count that shows that none was lost. Rings of more than
-    /// [`ALL_MODES`] vehicles: of modes 1 … 100, of a choice of others, and of those around the fastest.
+    /// The dominant root of every mode, and the count of unstable roots, which shows whether one is missing. In rings of more
+    /// than [`ALL_MODES`] vehicles: of modes 1 … 100, of some others, and of those around the fastest.
     pub fn followed(&self, time: Time) -> Followed {
         let (paths, slope, tau) = self.paths();
         let last = self.vehicles() / 2;
@@ -275,15 +295,15 @@ impl DriverClasses {
         }
         let follow = |q: usize| root(q, 0).map(|root| Mode { mode: q, root });
         if self.vehicles() > ALL_MODES {
-            modes.extend(choice(last).filter_map(follow));
-            climb(&mut modes, last, follow);
+            modes.extend(some_modes(last).filter_map(follow));
+            refine_around_fastest(&mut modes, last, follow);
             let unstable = unstable_among(&modes);
             return Followed { modes, unstable, counted: None };
         }
         modes.extend((1..=last).filter_map(follow));
         let counted = self.unstable_roots(time);
         let mut unstable = unstable_among(&modes);
-        // Roots from other branches of equal drivers may have overtaken.
+        // A root from another branch of homogeneous drivers may have a larger real part by now.
         for k in [-1, 1, -2, 2, -3, 3] {
             if counted.is_none_or(|counted| counted <= unstable) {
                 break;
@@ -301,24 +321,24 @@ impl DriverClasses {
         Followed { modes, unstable, counted }
     }
 
-    /// The fastest growing (or slowest fading) mode; of equal drivers by the closed form.
+    /// The fastest growing (or slowest fading) mode; of homogeneous drivers by the closed form.
     pub fn fastest(&self, time: Time) -> Option<Mode> {
-        match self.equal() {
+        match self.homogeneous() {
             Some((ring, delay)) => ring.fastest(delay, time),
             None => self.followed(time).fastest(),
         }
     }
 
     /// The mean delay (s) at which the ring becomes unstable when all delays change in proportion (when all are 0:
-    /// when all grow alike). Of equal drivers it is their critical reaction time. Infinite in the jam and for
+    /// when all grow alike). For homogeneous drivers it is their critical reaction time. Infinite in the jam and for
     /// a vehicle alone, 0 where no delay is stable.
     ///
-    /// Each mode's crossing of the imaginary axis is followed from equal drivers; the smallest counts. A root
-    /// from another branch may cross earlier: then the count of unstable roots just below tells, and the
-    /// threshold is found by bisection on the count. Of rings of more than [`ALL_MODES`] vehicles only a choice of
-    /// modes is looked at, and nothing is counted: the smallest is then right to some 10⁻⁴ of its value.
+    /// Each mode's crossing of the imaginary axis is followed from homogeneous drivers, and the smallest is taken. A root
+    /// from another branch may cross earlier: the count of unstable roots just below the smallest shows it, and then the
+    /// threshold is found by bisection on the count. In rings of more than [`ALL_MODES`] vehicles only some modes are
+    /// followed and nothing is counted: the smallest is then right to some 10⁻⁴ of its value.
     pub fn critical(&self, time: Time) -> f64 {
-        if let Some((ring, _)) = self.equal() {
+        if let Some((ring, _)) = self.homogeneous() {
             return ring.critical(time);
         }
         if self.vehicles() < 2 || self.is_jammed() {
@@ -330,25 +350,16 @@ impl DriverClasses {
             return 0.0;
         }
         let last = self.vehicles() / 2;
-        let candidates = choice(last).filter_map(|q| self.crossing(q, time));
+        let candidates = some_modes(last).filter_map(|q| self.crossing(q, time));
         let smallest = candidates.filter(|tau| *tau > 0.0).fold(f64::INFINITY, f64::min);
         let below = smallest * (1.0 - 1e-7);
         if !counts || !smallest.is_finite() || count_at(below).is_none_or(|count| count == 0) {
             return smallest;
         }
-        let (mut low, mut high) = (0.0, below);
-        for _ in 0..50 {
-            let middle = 0.5 * (low + high);
-            if count_at(middle).is_some_and(|count| count > 0) {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        high
+        last_bit(0.0, below, |tau| count_at(tau).is_none_or(|count| count == 0)).1
     }
 
-    /// The ring with all delays in proportion, their mean being `tau` seconds.
+    /// The same drivers with all delays in proportion, so that their mean is `tau` seconds; all equal where they were 0.
     #[must_use]
     pub fn at_mean_delay(&self, tau: f64) -> Self {
         let mean = self.mean_delay();
@@ -370,7 +381,7 @@ impl DriverClasses {
             Time::Steps(dt) => 2.0 * libm::asin(dt * sine) / dt,
         };
         let goal = 2.0 * PI * q as f64;
-        let walker = Walker {
+        let continuation = Continuation {
             paths: &paths,
             time,
             goal,
@@ -378,22 +389,22 @@ impl DriverClasses {
             place: Place { s: Complex64::new(0.0, frequency), tau, sigma: Complex64::ZERO },
             turns: vec![goal / self.vehicles() as f64; paths.len()],
         };
-        // Real unknowns allow no detour.
-        walker.arrive(0.0).map(|place| place.tau)
+        // A crossing has real unknowns, so σ must stay real.
+        continuation.follow(0.0).map(|place| place.tau)
     }
 
     /// The number of characteristic roots with Re s > 0 (|z| > 1 in steps), by the argument principle; `None`
     /// where one is on the imaginary axis to within rounding, or where the steps are so long that the contour would
     /// leave the strip |Im s|·dt < π.
     ///
-    /// With H(s) = (Π u_j − 1)/g(s), which leaves out the root of the mere shift, the argument of H is
+    /// With H(s) = (Π u_j − 1)/g(s), which has no root s = 0 (a shift of all vehicles), the argument of H is
     /// followed from 0 up the imaginary axis to iR and back along an arc to R; by symmetry it changes by −π for
     /// every root in the half-disc. All of them are in it: for |g| > 2·max c every |u_j| > 1.
     pub fn unstable_roots(&self, time: Time) -> Option<usize> {
         if self.is_jammed() || self.vehicles() < 2 {
             return Some(0);
         }
-        let largest = self.classes().last().map_or(0.0, |kind| kind.slope);
+        let largest = self.classes().last().map_or(0.0, |class| class.slope);
         // |g(s)| ≥ (2/π)|s| in the strip.
         let radius = match time {
             Time::Continuous => 3.0 * largest,
@@ -439,7 +450,7 @@ impl DriverClasses {
         let mut length = 1e-3 * end;
         while x < end {
             length = f64::min(length, 0.5 / rate);
-            // Also where the rate is infinite or not a number: a root on the curve.
+            // Also where the rate is infinite or not a number: then a root is on the curve.
             if length.is_nan() || length < 1e-13 * end {
                 return None;
             }
@@ -463,18 +474,18 @@ impl DriverClasses {
         let (g, slope) = time.derivative(s);
         let log_g = ln(g);
         let (mut sum, mut by_s) = (Complex64::ZERO, Complex64::ZERO);
-        for kind in self.classes() {
-            let inverse = 1.0 / kind.slope.max(1e-300);
-            let log_y = s * kind.delay;
-            let n = kind.count as f64;
+        for class in self.classes() {
+            let inverse = 1.0 / class.slope.max(1e-300);
+            let log_y = s * class.delay;
+            let n = class.count as f64;
             if log_y.re + log_g.re + libm::log(inverse) > LARGE {
                 sum += n * (log_y + log_g + libm::log(inverse));
-                by_s += n * (slope / g + kind.delay);
+                by_s += n * (slope / g + class.delay);
             } else {
                 let y = exp(log_y) * inverse;
                 let x = g * y;
                 sum += n * ln_1p(x);
-                by_s += n * y * (slope + g * kind.delay) / (1.0 + x);
+                by_s += n * y * (slope + g * class.delay) / (1.0 + x);
             }
         }
         // P − 1 and P/(P − 1) without overflow.
@@ -488,31 +499,25 @@ impl DriverClasses {
     }
 }
 
-/// Modes to follow: all of a small ring; of a large one 1 … 100, then steps of 2 %.
-fn choice(last: usize) -> impl Iterator<Item = usize> {
+/// Modes to follow: all of a small ring; of a large one 1 … 100, then in steps of 2 %.
+fn some_modes(last: usize) -> impl Iterator<Item = usize> {
     let next = move |q: &usize| if last <= ALL_MODES / 2 { q + 1 } else { q + (q / 50).max(1) };
     std::iter::successors(Some(1), move |q| Some(next(q))).take_while(move |q| *q <= last)
 }
 
-/// Fills in the modes around the fastest until it has both neighbours.
-fn climb(modes: &mut Vec<Mode>, last: usize, follow: impl Fn(usize) -> Option<Mode>) {
-    let (mut low, mut high) = {
-        let Some((place, _)) = modes.iter().enumerate().max_by(|a, b| a.1.root.re.total_cmp(&b.1.root.re))
-        else {
-            return;
-        };
-        let low = if place == 0 { 1 } else { modes[place - 1].mode };
-        (low, modes.get(place + 1).map_or(last, |m| m.mode))
+/// Adds modes around the fastest until both neighbours of the fastest are among them.
+fn refine_around_fastest(modes: &mut Vec<Mode>, last: usize, follow: impl Fn(usize) -> Option<Mode>) {
+    let rates = modes.iter().enumerate();
+    let Some((place, _)) = rates.max_by(|a, b| a.1.root.re.total_cmp(&b.1.root.re)) else {
+        return;
     };
-    // Between the neighbours the growth rate has one summit.
-    while high - low > 2 {
-        let middle = usize::midpoint(low, high);
+    let low = if place == 0 { 1 } else { modes[place - 1].mode };
+    let high = modes.get(place + 1).map_or(last, |m| m.mode);
+    // Between these neighbours the growth rate has one maximum: it rises from a mode to the next one, then falls.
+    let mut rises = Whole::new(low, high.saturating_sub(1));
+    while let Some(middle) = rises.middle() {
         let (Some(a), Some(b)) = (follow(middle), follow(middle + 1)) else { return };
-        if a.root.re < b.root.re {
-            low = middle;
-        } else {
-            high = middle + 1;
-        }
+        rises.narrow(middle, a.root.re < b.root.re);
         for mode in [a, b] {
             if modes.binary_search_by_key(&mode.mode, |m| m.mode).is_err() {
                 insert(modes, mode);
@@ -521,7 +526,7 @@ fn climb(modes: &mut Vec<Mode>, last: usize, follow: impl Fn(usize) -> Option<Mo
     }
 }
 
-/// Keeps modes in their order, roots of one mode in that in which they came.
+/// Inserts a mode in order of q, after others of the same q.
 fn insert(modes: &mut Vec<Mode>, mode: Mode) {
     modes.insert(modes.partition_point(|m| m.mode <= mode.mode), mode);
 }

@@ -1,4 +1,4 @@
-//! The theory of drivers that differ, held against matrices that know nothing of it.
+//! The theory of heterogeneous drivers against eigenvalues of the whole system's matrix, which use none of it.
 
 use super::*;
 use crate::numerics::random::{Generator, Stream};
@@ -12,10 +12,10 @@ fn default_slope() -> f64 {
     Driver::default().slope(20.0)
 }
 
-/// `calm` drivers without delay among 50 with 0.75 s.
-fn calmed(calm: usize) -> DriverClasses {
+/// `quick` drivers without delay among 50 with 0.75 s.
+fn with_quick_drivers(quick: usize) -> DriverClasses {
     let c = default_slope();
-    DriverClasses::new((0..50).map(|j| (c, if j < calm { 0.0 } else { 0.75 })))
+    DriverClasses::new((0..50).map(|j| (c, if j < quick { 0.0 } else { 0.75 })))
 }
 
 /// Largest |z| ≠ 1 of the whole difference system, drivers in the order given: x_j(n + 1) =
@@ -81,14 +81,14 @@ fn without_delay_the_roots_are_the_eigenvalues_of_the_jacobian() {
 }
 
 #[test]
-fn equal_drivers_come_back_as_a_special_case() {
-    // A difference too small to matter takes the general way.
+fn homogeneous_drivers_are_a_special_case() {
+    // Slopes that differ by 1e-13 are solved by the general method.
     for delay in [0.0, 0.3, 0.75, 1.2] {
         let c = default_slope();
         let nearly = DriverClasses::new((0..50).map(|j| (c * (1.0 + f64::from(j % 2) * 1e-13), delay)));
         let exact = HomogeneousRing { vehicles: 50, slope: c };
         for time in [Time::Continuous, Time::Steps(DT)] {
-            assert!(nearly.equal().is_none());
+            assert!(nearly.homogeneous().is_none());
             let mut modes = nearly.followed(time).modes;
             // Beyond the first of a mode come unstable roots of other branches.
             modes.dedup_by_key(|m| m.mode);
@@ -106,7 +106,7 @@ fn equal_drivers_come_back_as_a_special_case() {
     }
 }
 
-/// Counted by the argument principle: of equal drivers exactly those that the branches of W give.
+/// The argument principle counts, for homogeneous drivers, exactly the unstable roots on the branches of W.
 #[test]
 fn the_count_finds_every_unstable_root() {
     for (vehicles, slope, delay) in
@@ -138,12 +138,12 @@ fn no_unstable_root_is_lost() {
     }
 }
 
-/// The model's specification: at N = 50, Δ = 0.75 s, dt = 0.01 s four drivers without delay do not calm the ring, five do.
+/// The model's specification: at N = 50, Δ = 0.75 s, dt = 0.01 s four drivers without delay do not stabilize the ring, five do.
 #[test]
-fn five_calm_drivers_calm_the_ring_and_four_do_not() {
-    for (calm, stable) in [(0, false), (4, false), (5, true), (50, true)] {
-        let fastest = calmed(calm).fastest(Time::Steps(DT)).unwrap();
-        assert_eq!(fastest.root.re < 0.0, stable, "{calm}: {fastest:?}");
+fn five_drivers_without_delay_stabilize_the_ring_and_four_do_not() {
+    for (quick, stable) in [(0, false), (4, false), (5, true), (50, true)] {
+        let fastest = with_quick_drivers(quick).fastest(Time::Steps(DT)).unwrap();
+        assert_eq!(fastest.root.re < 0.0, stable, "{quick}: {fastest:?}");
     }
 }
 
@@ -154,7 +154,7 @@ fn the_critical_delay_is_where_the_largest_real_part_vanishes() {
         let drivers = random_drivers(seed, 3 + seed as usize, 90);
         DriverClasses::new(drivers.iter().map(|&(c, m)| (c, m as f64 * DT)))
     });
-    for ring in rings.chain([calmed(3), calmed(10), calmed(40)]) {
+    for ring in rings.chain([3, 10, 40].map(with_quick_drivers)) {
         for time in [Time::Continuous, Time::Steps(DT)] {
             let critical = ring.critical(time);
             let at = |factor: f64| ring.at_mean_delay(critical * factor).followed(time);
@@ -170,7 +170,7 @@ fn the_critical_delay_is_where_the_largest_real_part_vanishes() {
 fn the_mean_delay_decides_for_long_waves() {
     let ring = DriverClasses::new((0..2000).map(|j| (1.0, if j % 4 == 0 { 0.0 } else { 0.6 })));
     assert!((ring.crossing(1, Time::Continuous).unwrap() - 0.5).abs() < 1e-6);
-    // With delays so different, shorter waves are less stable still.
+    // With delays so different, shorter waves are even less stable.
     assert!(ring.critical(Time::Continuous) < 0.49);
 }
 
@@ -184,7 +184,7 @@ fn long_waves_have_newells_limit() {
 }
 
 #[test]
-fn large_rings_find_the_fastest_mode_among_a_choice() {
+fn large_rings_find_the_fastest_mode_from_some_modes() {
     let drivers = |n: usize| (0..n).map(move |j| (0.9, if j * 10 < n { 0.0 } else { 0.8 }));
     let ring = DriverClasses::new(drivers(3000));
     let (paths, slope, tau) = ring.paths();
@@ -194,7 +194,7 @@ fn large_rings_find_the_fastest_mode_among_a_choice() {
 }
 
 #[test]
-fn a_slow_leader_on_a_long_road_leaves_nothing_that_grows() {
+fn behind_a_slow_vehicle_on_a_long_road_no_mode_grows() {
     let mut drivers = vec![Driver::default(); 10];
     drivers[0].max_speed = 5.0;
     let ring = DriverClasses::of(&drivers, vec![0.3; 10], 1000.0);

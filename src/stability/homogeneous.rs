@@ -1,16 +1,27 @@
-//! A lane of equal drivers: the closed forms.
+//! A lane of homogeneous drivers: the closed forms.
 //!
 //! A small deviation of the positions, x_j ∝ e^{2πiqj/N + st} (j counted downstream), obeys
 //! s = d_q·e^{−sΔ} with d_q = −c(1 − e^{2πiq/N}) = 2ic·sin a·e^{ia}, where a = πq/N and c is the slope of
-//! speed against headway. Modes q and N − q are conjugate, so q = 1 … ⌊N/2⌋ says everything. The Euler steps of
-//! a simulation obey (e^{s·dt} − 1)/dt = d_q·e^{−sΔ} instead, with Δ = m·dt: the same with another
-//! derivative, which [`Time`] names.
+//! speed against headway. Modes q and N − q are conjugate, so modes q = 1 … ⌊N/2⌋ are enough. The Euler steps of
+//! a simulation obey (e^{s·dt} − 1)/dt = d_q·e^{−sΔ} instead, with Δ = m·dt: the same equation with another
+//! symbol of the derivative, which [`Time`] gives.
+//!
+//! ```
+//! use ringroad::stability::homogeneous::{HomogeneousRing, Time};
+//!
+//! let ring = HomogeneousRing { vehicles: 50, slope: 0.731_616 };
+//! let critical = ring.critical(Time::Continuous);
+//! // A little above it the longest wave grows; a little below, every wave fades.
+//! assert!(ring.root(1, critical + 1e-6, Time::Continuous).re > 0.0);
+//! assert!(ring.fastest(critical - 1e-6, Time::Continuous).unwrap().root.re < 0.0);
+//! ```
 
+use crate::numerics::bisection::Whole;
 use crate::numerics::complex::{Complex64, exp, exp_m1, ln, norm};
 use crate::numerics::lambert_w::lambert_w;
 use std::f64::consts::PI;
 
-/// In which time the traffic moves.
+/// Continuous time or steps: which of the two systems.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Time {
     /// The differential equation.
@@ -34,8 +45,7 @@ impl Time {
 pub struct Mode {
     /// q, the number of waves on the ring.
     pub mode: usize,
-    /// s, 1/s: growth rate, and angular frequency of the waves as a standing observer in the row of vehicles
-    /// counts them. In steps, z = e^{s·dt}.
+    /// s, 1/s: the growth rate, and the angular frequency of the headway of one vehicle. In steps, z = e^{s·dt}.
     pub root: Complex64,
 }
 
@@ -46,11 +56,11 @@ pub struct Root {
     pub branch: i32,
     /// s, 1/s.
     pub value: Complex64,
-    /// |s − d_q·e^{−sΔ}|/max(1, |s|): what rounding has left of the equation.
+    /// |s − d_q·e^{−sΔ}|/max(1, |s|): what rounding leaves of the equation.
     pub residual: f64,
 }
 
-/// N equal drivers in one lane.
+/// N homogeneous drivers in one lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HomogeneousRing {
     /// N.
@@ -76,7 +86,7 @@ impl HomogeneousRing {
     }
 
     fn eigenvalue_at(&self, a: f64) -> Complex64 {
-        // 2ic·sin a·e^{ia}; at a = π/2 exactly real, as it should be.
+        // 2ic·sin a·e^{ia}, exactly real at a = π/2.
         let (sine, cosine) = (libm::sin(a), if a == PI / 2.0 { 0.0 } else { libm::cos(a) });
         2.0 * self.slope * sine * Complex64::new(-sine, cosine)
     }
@@ -114,7 +124,8 @@ impl HomogeneousRing {
         dominant_root(self.eigenvalue(q), delay, time)
     }
 
-    /// The root on branch `k`, continuous time. Without a delay there is one root only, on branch 0.
+    /// The root on branch `k` at a reaction time of `delay` seconds, continuous time. Without a delay there is one root only,
+    /// on branch 0.
     pub fn root_on(&self, q: usize, k: i32, delay: f64) -> Root {
         let d = self.eigenvalue(q);
         let value = if delay == 0.0 && k == 0 { d } else { lambert_w(k, d * delay) / delay };
@@ -140,12 +151,12 @@ impl HomogeneousRing {
         roots
     }
 
-    /// The fastest growing (or slowest fading) mode; none for a vehicle alone or in the jam, where nothing
-    /// moves at a rate of its own.
+    /// The fastest growing (or slowest fading) mode at a reaction time of `delay` seconds; none for a vehicle alone or in the
+    /// jam, where no mode grows or fades.
     ///
-    /// Over the modes the growth rate rises to one summit and falls, or only falls, so the summit is found by
-    /// bisection on the sign of its derivative, (g′/g + Δ)·ds/da = cot a + i: a ring of a million
-    /// vehicles costs no more than a ring of fifty. (A test compares with the whole list.)
+    /// Over the modes the growth rate rises to one maximum and falls, or only falls. The maximum is found by bisection on the
+    /// sign of the derivative by a, (g′/g + Δ)·ds/da = cot a + i. So a ring of a million vehicles costs hardly more than a ring
+    /// of fifty. (A test compares with all modes, one by one.)
     pub fn fastest(&self, delay: f64, time: Time) -> Option<Mode> {
         if self.vehicles < 2 || self.slope <= 0.0 {
             return None;
@@ -161,21 +172,13 @@ impl HomogeneousRing {
         if !rises_at(1) {
             return Some(mode(1));
         }
-        // The derivative is positive at `low` and not at `high`; beyond the last mode counts as falling.
-        let (mut low, mut high) = (1, last + 1);
-        while high - low > 1 {
-            let middle = usize::midpoint(low, high);
-            if rises_at(middle) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let below = mode(low);
-        if high > last {
+        // Beyond the last mode the rate counts as falling.
+        let around = Whole::new(1, last + 1).until(rises_at);
+        let below = mode(around.holds);
+        if around.fails > last {
             return Some(below);
         }
-        let above = mode(high);
+        let above = mode(around.fails);
         Some(if above.root.re > below.root.re { above } else { below })
     }
 }
@@ -197,7 +200,7 @@ pub(crate) fn dominant_root(d: Complex64, delay: f64, time: Time) -> Complex64 {
         Time::Steps(dt) if delay == 0.0 => crate::numerics::complex::ln_1p(d * dt) / dt,
         Time::Steps(dt) => {
             let start = continuous(delay + 0.5 * dt);
-            newton(start, d, delay, dt).unwrap_or_else(|| grow(d, delay, dt))
+            newton(start, d, delay, dt).unwrap_or_else(|| follow_from_zero(d, delay, dt))
         }
     }
 }
@@ -229,9 +232,9 @@ fn newton(start: Complex64, d: Complex64, delay: f64, dt: f64) -> Option<Complex
     None
 }
 
-/// The same root for steps so long that the start above fails: followed from s = 0 as |d| grows from 0, the angle
-/// of d held (z leaves 1 and never meets another root in the upper half-plane).
-fn grow(d: Complex64, delay: f64, dt: f64) -> Complex64 {
+/// The same root for steps so long that Newton's method fails from the start above: followed from s = 0 while |d| grows
+/// from 0 at a fixed argument of d (z starts at 1 and never meets another root in the upper half-plane).
+fn follow_from_zero(d: Complex64, delay: f64, dt: f64) -> Complex64 {
     let mut share = 1e-3;
     let mut s = d * share;
     let mut ratio = 2.0;

@@ -1,6 +1,7 @@
-//! The theory of equal drivers, stated and checked.
+//! The theory of homogeneous drivers, stated and checked.
 
 use super::*;
+use crate::numerics::bisection::last_bit;
 use crate::numerics::complex::norm;
 use crate::scenario::driver::Driver;
 
@@ -45,14 +46,14 @@ fn every_root_satisfies_its_equation_and_the_principal_branch_dominates() {
 }
 
 #[test]
-fn leading_roots_come_by_falling_real_part() {
+fn leading_roots_are_sorted_by_falling_real_part() {
     let ring = default_ring(50);
     for q in ring.modes() {
         let roots = ring.leading_roots(q, 0.75, 6);
         assert_eq!(roots.len(), 6);
         assert_eq!(roots[0].value, ring.root(q, 0.75, Time::Continuous));
         assert!(roots.windows(2).all(|w| w[0].value.re >= w[1].value.re - 1e-12));
-        // None was left out: the next branches lie further left.
+        // No root is missing: those of the next branches lie further left.
         for k in [-8, -7, 7, 8] {
             assert!(ring.root_on(q, k, 0.75).value.re <= roots[5].value.re);
         }
@@ -62,13 +63,8 @@ fn leading_roots_come_by_falling_real_part() {
 
 /// The reaction time at which the largest real part passes 0, by bisection.
 fn critical_by_roots(ring: &HomogeneousRing, time: Time) -> f64 {
-    let (mut low, mut high) = (1e-6, 20.0 / ring.slope);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        let unstable = ring.modes().any(|q| ring.root(q, middle, time).re > 0.0);
-        if unstable { high = middle } else { low = middle }
-    }
-    low
+    let stable = |delay| ring.modes().all(|q| ring.root(q, delay, time).re <= 0.0);
+    last_bit(1e-6, 20.0 / ring.slope, stable).0
 }
 
 #[test]

@@ -1,6 +1,19 @@
-//! The stability plane of one lane of equal drivers: critical reaction times against the number of vehicles in it, and
+//! The stability diagram of one lane of homogeneous drivers: critical reaction times against the number of vehicles, and
 //! the map of the largest growth rate over number and reaction time. And tables of what theory says of a scenario while
 //! a parameter is swept.
+//!
+//! ```
+//! use ringroad::scenario::Scenario;
+//! use ringroad::stability::homogeneous::Time;
+//! use ringroad::stability::stability_diagram::StabilityDiagram;
+//!
+//! let diagram = StabilityDiagram::of(&Scenario::default());
+//! let curves = diagram.curves([25, 50, 140]);
+//! assert!(curves.continuous_s[0] > curves.continuous_s[1]); // more vehicles are less stable,
+//! assert_eq!(curves.continuous_s[2], None); // up to the jam, where every reaction time is stable
+//! let rates = diagram.growth_rates(50, [0.5, 0.75], Time::Continuous);
+//! assert!(rates[0] < 0.0 && rates[1] > 0.0);
+//! ```
 
 use super::homogeneous::{HomogeneousRing, Time};
 use super::report::Report;
@@ -11,10 +24,10 @@ use crate::scenario::driver::Driver;
 use crate::scenario::parameters::{PARAMETERS, Parameter};
 use crate::scenario::value::Kind;
 
-/// A lane that any number of equal drivers may share.
+/// The lane of the diagram: any number of homogeneous drivers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StabilityDiagram {
-    /// Every driver; the reaction time plays no part.
+    /// Every driver; the reaction time is not used.
     pub driver: Driver,
     /// L, m.
     pub length: f64,
@@ -36,7 +49,7 @@ pub struct Curves {
 }
 
 impl StabilityDiagram {
-    /// The plane of a scenario's default driver.
+    /// The diagram of a scenario's default driver.
     pub fn of(scenario: &Scenario) -> Self {
         Self { driver: scenario.driver, length: scenario.length, time_step: scenario.time_step }
     }
@@ -55,9 +68,8 @@ impl StabilityDiagram {
         self.length / self.driver.min_headway
     }
 
-    /// Numbers of vehicles at which a picture of the plane asks for its curves: from 2 to the jam, or to the `own`
-    /// number of the lane where that is larger, evenly spread, not many more than `points`. The last is always
-    /// among them.
+    /// Numbers of vehicles for the curves of a picture: from 2 to the jam, or to the lane's `own` number where that is larger,
+    /// evenly spread, not many more than `points`. The last is always among them.
     pub fn numbers(&self, own: usize, points: usize) -> Vec<usize> {
         let last = (self.jam() as usize).max(own).max(2);
         let stride = last.div_ceil(points.max(1));
@@ -66,7 +78,7 @@ impl StabilityDiagram {
         numbers
     }
 
-    /// The curves of the plane.
+    /// The neutral stability curves, and Newell's limit, at these numbers of vehicles.
     pub fn curves(&self, vehicles: impl IntoIterator<Item = usize>) -> Curves {
         let vehicles: Vec<_> = vehicles.into_iter().collect();
         let column = |of: &dyn Fn(&HomogeneousRing) -> f64| {
@@ -89,7 +101,7 @@ impl StabilityDiagram {
 
     /// One row of the map: the largest growth rate (1/s) with `vehicles` vehicles at each reaction time (s), a number
     /// for every one: 0 in the jam, NaN for a vehicle alone, which has no modes. In steps, delays between whole
-    /// steps are what z^m means for a real m; the map has no stairs.
+    /// steps are those of z^m for a real m, so that the map is smooth.
     pub fn growth_rates(
         &self,
         vehicles: usize,
@@ -248,8 +260,8 @@ mod tests {
     #[test]
     fn curves_and_sweep_say_the_same() {
         let scenario = Scenario::default();
-        let plane = StabilityDiagram::of(&scenario);
-        let curves = plane.curves(2..=133);
+        let diagram = StabilityDiagram::of(&scenario);
+        let curves = diagram.curves(2..=133);
         let table = sweep(&scenario, &"vehicles=2:133".parse().unwrap()).unwrap();
         let continuous = table.floats("critical_reaction_time_s").unwrap();
         let discrete = table.floats("critical_reaction_time_discrete_s").unwrap();
@@ -263,15 +275,15 @@ mod tests {
         assert!((continuous[131] - 0.500_282).abs() < 5e-7);
     }
 
-    /// Mode 1 is the ring's own curve; the shorter the wave, the longer the delay that it tolerates.
+    /// The curve of mode 1 is that of the ring; a shorter wave has a larger critical delay.
     #[test]
     fn every_mode_has_a_curve_of_its_own() {
-        let plane = StabilityDiagram { time_step: 0.05, ..StabilityDiagram::of(&Scenario::default()) };
-        let numbers = plane.numbers(150, 400);
-        let curves = plane.curves(numbers.iter().copied());
+        let diagram = StabilityDiagram { time_step: 0.05, ..StabilityDiagram::of(&Scenario::default()) };
+        let numbers = diagram.numbers(150, 400);
+        let curves = diagram.curves(numbers.iter().copied());
         for (in_steps, of_the_ring) in [(false, &curves.continuous_s), (true, &curves.discrete_s)] {
             let modes: Vec<_> =
-                (1..=75).map(|q| plane.critical_of_mode(q, &numbers, plane.time(in_steps))).collect();
+                (1..=75).map(|q| diagram.critical_of_mode(q, &numbers, diagram.time(in_steps))).collect();
             for (k, &n) in numbers.iter().enumerate() {
                 assert_eq!(Some(modes[0][k]).filter(|tau| tau.is_finite()), of_the_ring[k]);
                 assert_eq!(modes.iter().filter(|mode| !mode[k].is_nan()).count(), n / 2);
@@ -283,26 +295,26 @@ mod tests {
     }
 
     #[test]
-    fn the_map_changes_sign_on_the_curve() {
-        let plane = StabilityDiagram::of(&Scenario::default());
+    fn the_map_changes_sign_on_the_neutral_curve() {
+        let diagram = StabilityDiagram::of(&Scenario::default());
         for n in [2, 10, 50, 133] {
-            let critical = plane.curves(n..=n);
+            let critical = diagram.curves(n..=n);
             for (in_steps, tau) in [(false, critical.continuous_s[0]), (true, critical.discrete_s[0])] {
                 let tau = tau.unwrap();
-                let row = plane.growth_rates(n, [tau - 1e-6, tau + 1e-6], plane.time(in_steps));
+                let row = diagram.growth_rates(n, [tau - 1e-6, tau + 1e-6], diagram.time(in_steps));
                 assert!(row[0] < 0.0 && row[1] > 0.0, "{n} {in_steps} {row:?}");
             }
         }
-        assert_eq!(plane.growth_rates(140, [0.0, 5.0], Time::Continuous), [0.0, 0.0]);
-        assert!(plane.growth_rates(1, [1.0], Time::Continuous)[0].is_nan());
+        assert_eq!(diagram.growth_rates(140, [0.0, 5.0], Time::Continuous), [0.0, 0.0]);
+        assert!(diagram.growth_rates(1, [1.0], Time::Continuous)[0].is_nan());
     }
 
     #[test]
     fn pictures_reach_from_two_vehicles_to_the_jam() {
-        let plane = StabilityDiagram::of(&Scenario::default());
-        assert_eq!(plane.numbers(50, 400), (2..=133).collect::<Vec<_>>());
-        assert_eq!(plane.numbers(150, 400).last(), Some(&150));
-        let road = StabilityDiagram { length: 1e5, ..plane };
+        let diagram = StabilityDiagram::of(&Scenario::default());
+        assert_eq!(diagram.numbers(50, 400), (2..=133).collect::<Vec<_>>());
+        assert_eq!(diagram.numbers(150, 400).last(), Some(&150));
+        let road = StabilityDiagram { length: 1e5, ..diagram };
         let spread = road.numbers(50, 400);
         assert!(spread.len() <= 401 && spread.last() == Some(&13_333), "{}", spread.len());
         assert!(spread.windows(2).all(|w| w[0] < w[1]));

@@ -1,9 +1,21 @@
-//! How many drivers of another kind calm a ring?
+//! How many drivers must change, say to a shorter reaction time, to stabilize a ring?
+//!
+//! ```
+//! use ringroad::scenario::Scenario;
+//! use ringroad::stability::stabilizing_drivers::{parse_changes, stabilizing_drivers};
+//!
+//! let mut scenario = Scenario::default();
+//! scenario.driver.reaction_time = 0.75; // 50 vehicles, unstable
+//! let changes = parse_changes("reaction-time=0").unwrap();
+//! let answer = stabilizing_drivers(&scenario, &changes).unwrap();
+//! assert_eq!(answer.smallest_number, Some(5));
+//! ```
 
-use super::driver_classes::DriverClasses;
 use super::homogeneous::Time;
-use super::report::{Report, lanes_of};
+use super::lane::{Lane, lanes_of};
+use super::report::{Report, is_stable};
 use crate::error::Error;
+use crate::numerics::bisection::Whole;
 use crate::scenario::Scenario;
 use crate::scenario::action::driver_values;
 use crate::scenario::driver::Driver;
@@ -11,9 +23,10 @@ use crate::scenario::parameters::DriverField;
 use crate::scenario::value::Value;
 use serde::Serialize;
 
-/// The answer, for the least stable lane of a scenario, in the steps of its simulation. Its JSON is part of a report's, where
-/// lane and vehicles are said already.
+/// The answer, for the least stable lane of a scenario, in the steps of its simulation. Its JSON is part of a report's, which
+/// states lane and vehicles already.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct StabilizingDrivers {
     /// The lane, from 1.
     #[serde(skip)]
@@ -21,22 +34,25 @@ pub struct StabilizingDrivers {
     /// Vehicles in it.
     #[serde(skip)]
     pub vehicles: usize,
-    /// The smallest number of changed drivers with whom the lane is stable; `None` where no number calms it.
-    pub smallest_calming_number: Option<usize>,
-    /// Numbers of changed drivers, 0 first: all up to the lane's vehicles, of a large lane a choice.
+    /// The smallest number of changed drivers with which the lane is stable; `None` where no number stabilizes it.
+    #[serde(rename = "smallest_calming_number")]
+    pub smallest_number: Option<usize>,
+    /// Numbers of changed drivers, 0 first: all up to the lane's vehicles; in a large lane evenly spread ones.
     #[serde(rename = "calming_numbers")]
     pub numbers: Vec<usize>,
-    /// The largest growth rate of each, 1/s.
+    /// The largest growth rate with each number, 1/s.
     #[serde(rename = "calming_growth_rates_discrete_per_s")]
     pub max_growth_rates_discrete_per_s: Vec<f64>,
 }
 
-/// Every number is tried on rings up to this size; between those tried on larger ones the growth rate is taken to
-/// fall as the number rises.
+/// In lanes of up to so many vehicles every number is tried. In larger lanes, between the numbers tried, the growth rate is
+/// taken to fall as the number rises.
 const TRIED: usize = 200;
 
-/// Changes one driver after another of the least stable lane, those of the lowest numbers first; where the others
-/// are equal, and that is the usual question, it does not matter which.
+/// Changes one driver after another of the least stable lane, those of the lowest vehicle numbers first. Where the others are
+/// homogeneous, which is the usual question, it does not matter which drivers are changed.
+///
+/// Fails where a changed value is not allowed for a driver.
 pub fn stabilizing_drivers(
     scenario: &Scenario,
     changes: &[(DriverField, Value)],
@@ -53,44 +69,34 @@ pub fn stabilizing_drivers(
     for &(field, value) in changes {
         field.parameter().check(value)?;
     }
-    let calm: Vec<_> = lane.drivers.iter().map(changed).collect();
-    calm.iter().try_for_each(Driver::check)?;
-    let n = calm.len();
-    let ring = |number: usize| {
-        let drivers = [&calm[..number], &lane.drivers[number..]].concat();
-        let delays = drivers.iter().map(|d| scenario.steps(d.reaction_time) as f64 * scenario.time_step);
-        DriverClasses::of(&drivers, delays.collect::<Vec<_>>(), scenario.length)
+    let changed: Vec<_> = lane.drivers.iter().map(changed).collect();
+    changed.iter().try_for_each(Driver::check)?;
+    let n = changed.len();
+    let with = |number: usize| {
+        let drivers = [&changed[..number], &lane.drivers[number..]].concat();
+        Lane::new(drivers, scenario.time_step).classes(scenario.length, scenario.time_step).in_steps
     };
     let time = Time::Steps(scenario.time_step);
-    let rate = |number: usize| ring(number).fastest(time).map_or(0.0, |mode| mode.root.re);
-    // The verdict is the report's: by the closed form of equal drivers, by the count of others.
-    let stable = |number: usize| super::report::is_stable(&ring(number), time);
+    let rate = |number: usize| with(number).fastest(time).map_or(0.0, |mode| mode.root.re);
+    let unstable = |number: usize| !is_stable(&with(number), time);
 
     let tried = n.min(TRIED);
     let numbers: Vec<_> = (0..=tried).map(|k| k * n / tried).collect();
     let rates = numbers.iter().map(|&number| rate(number)).collect();
-    let smallest = numbers.iter().position(|&number| stable(number)).map(|k| {
-        let (mut low, mut high) = (if k == 0 { numbers[0] } else { numbers[k - 1] + 1 }, numbers[k]);
-        while low < high {
-            let middle = usize::midpoint(low, high);
-            if stable(middle) {
-                high = middle;
-            } else {
-                low = middle + 1;
-            }
-        }
-        high
+    let smallest = numbers.iter().position(|&number| !unstable(number)).map(|k| match k {
+        0 => 0,
+        k => Whole::new(numbers[k - 1], numbers[k]).until(unstable).fails,
     });
     Ok(StabilizingDrivers {
         lane: place + 1,
         vehicles: n,
-        smallest_calming_number: smallest,
+        smallest_number: smallest,
         numbers,
         max_growth_rates_discrete_per_s: rates,
     })
 }
 
-/// Reads `reaction-time=0` or `reaction-time=0,sensitivity=2`.
+/// Reads changes such as `reaction-time=0` or `reaction-time=0,sensitivity=2`; refuses what a driver may not have.
 pub fn parse_changes(text: &str) -> Result<Vec<(DriverField, Value)>, Error> {
     let changes = driver_values(text).map_err(|e| e.within("calm-with"))?;
     for &(field, value) in &changes {
@@ -110,29 +116,29 @@ mod tests {
     }
 
     #[test]
-    fn five_drivers_without_delay_calm_fifty() {
-        let calming =
+    fn five_drivers_without_delay_stabilize_fifty() {
+        let answer =
             stabilizing_drivers(&scenario(0.75), &parse_changes("reaction-time=0").unwrap()).unwrap();
-        assert_eq!(calming.smallest_calming_number, Some(5));
-        assert_eq!(calming.numbers, (0..=50).collect::<Vec<_>>());
-        assert!(calming.max_growth_rates_discrete_per_s.windows(2).all(|w| w[1] <= w[0] + 1e-12));
+        assert_eq!(answer.smallest_number, Some(5));
+        assert_eq!(answer.numbers, (0..=50).collect::<Vec<_>>());
+        assert!(answer.max_growth_rates_discrete_per_s.windows(2).all(|w| w[1] <= w[0] + 1e-12));
         let stable = stabilizing_drivers(&scenario(0.5), &parse_changes("reaction-time=0").unwrap()).unwrap();
-        assert_eq!(stable.smallest_calming_number, Some(0));
+        assert_eq!(stable.smallest_number, Some(0));
         let useless =
             stabilizing_drivers(&scenario(0.75), &parse_changes("reaction-time=0.74").unwrap()).unwrap();
-        assert_eq!(useless.smallest_calming_number, None);
+        assert_eq!(useless.smallest_number, None);
     }
 
     #[test]
-    fn a_large_ring_has_its_number_too() {
+    fn the_number_of_a_large_ring_is_found_too() {
         let scenario = Scenario { vehicles: 2000, length: 40_000.0, ..scenario(0.75) };
-        let calming = stabilizing_drivers(&scenario, &parse_changes("reaction-time=0").unwrap()).unwrap();
-        let number = calming.smallest_calming_number.unwrap();
-        assert!(calming.numbers.len() == 201 && (100..400).contains(&number), "{number}");
+        let answer = stabilizing_drivers(&scenario, &parse_changes("reaction-time=0").unwrap()).unwrap();
+        let number = answer.smallest_number.unwrap();
+        assert!(answer.numbers.len() == 201 && (100..400).contains(&number), "{number}");
     }
 
     #[test]
-    fn nonsense_is_refused_by_name() {
+    fn changes_that_are_not_allowed_are_refused_by_name() {
         for (text, words) in
             [("reaction-time=-1", "reaction-time"), ("vehicles=3", "vehicles"), ("calm", "calm")]
         {

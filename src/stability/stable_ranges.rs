@@ -1,13 +1,26 @@
-//! The inverse questions, for one lane of equal drivers: at this reaction time, how many vehicles are stable, and
-//! which sensitivities?
+//! The inverse questions, for one lane of homogeneous drivers: at a given reaction time, which numbers of vehicles are stable,
+//! and which sensitivities?
+//!
+//! ```
+//! use ringroad::scenario::driver::Driver;
+//! use ringroad::stability::homogeneous::Time;
+//! use ringroad::stability::stable_ranges::{most_vehicles, stable_vehicles};
+//!
+//! let driver = Driver::default();
+//! let most = most_vehicles(&driver, 1000.0);
+//! // On one kilometre, at 0.75 s: 41 vehicles are stable, 42 are not; from 134 vehicles on, all stand.
+//! let stable = stable_vehicles(&driver, 1000.0, 0.75, Time::Steps(0.01), most);
+//! assert_eq!(stable, [(1, 41), (134, 199)]);
+//! ```
 
 use super::homogeneous::{HomogeneousRing, Time};
+use crate::numerics::bisection::Whole;
 use crate::numerics::complex::Complex64;
 use crate::numerics::lambert_w::lambert_w;
 use crate::scenario::driver::Driver;
 use crate::scenario::parameters::{DriverField, RoadField};
 
-/// The largest number of such vehicles that a lane of `length` metres holds without touching.
+/// The largest number of vehicles of such drivers that a lane of `length` metres holds without contact.
 pub fn most_vehicles(driver: &Driver, length: f64) -> usize {
     let most = RoadField::Vehicles.parameter().kind.range().map_or(f64::INFINITY, |range| range.max);
     ((length / driver.vehicle_length).ceil() - 1.0).clamp(1.0, most) as usize
@@ -28,9 +41,9 @@ pub fn stable_vehicles(
     let stable = |n: usize| {
         delay < HomogeneousRing { vehicles: n, slope: driver.slope(length / n as f64) }.critical(time)
     };
-    // The first number that is jammed, and the last before it that is stable; one vehicle always is.
+    // Stable numbers come first, then unstable ones up to the jam. One vehicle is always stable.
     let jammed = first_jammed(driver, length, most);
-    let first_unstable = partition(1, jammed, stable);
+    let first_unstable = Whole::new(0, jammed).until(stable).fails;
     let mut intervals = Vec::new();
     if first_unstable > 1 {
         intervals.push((1, first_unstable - 1));
@@ -44,28 +57,14 @@ pub fn stable_vehicles(
     intervals
 }
 
-/// The first of `low` … `high` for which it does not hold (it holds for all before), or `high`.
-fn partition(low: usize, high: usize, holds: impl Fn(usize) -> bool) -> usize {
-    let (mut low, mut high) = (low, high);
-    while low < high {
-        let middle = usize::midpoint(low, high);
-        if holds(middle) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    low
-}
-
-/// The smallest number of such vehicles on a lane of `length` metres of whom none moves in equilibrium; `most` + 1 where
-/// that is a larger one.
+/// The smallest number of vehicles of such drivers that all stand in equilibrium on a lane of `length` metres; `most` + 1
+/// where that number is larger than `most`.
 pub fn first_jammed(driver: &Driver, length: f64, most: usize) -> usize {
-    partition(1, most + 1, |n| length / n as f64 > driver.min_headway)
+    Whole::new(0, most + 1).until(|n| length / n as f64 > driver.min_headway).fails
 }
 
-/// The sensitivities λ (1/s), within the allowed range, with which N such vehicles are stable at the delay `delay`
-/// (s), as intervals; the ends that are not ends of the range are critical.
+/// The sensitivities λ (1/s), within the allowed range, with which N homogeneous drivers are stable at the delay `delay`
+/// (s), as intervals. An end of an interval is critical, unless it is an end of the range.
 ///
 /// The slope c = λ·e^{−(λ/V)(h − d)} must stay below the critical one, a/(2Δ·sin a) or
 /// sin(a/(2m + 1))/(dt·sin a). It is largest at λ = V/(h − d), so unstable sensitivities are one interval,
@@ -79,17 +78,17 @@ pub fn stable_sensitivities(
 ) -> Vec<(f64, f64)> {
     let range = DriverField::Sensitivity.parameter().kind.range();
     let range = range.map_or((0.0, f64::INFINITY), |range| (range.min, range.max));
-    let gap = length / vehicles as f64 - driver.min_headway;
+    let excess = length / vehicles as f64 - driver.min_headway;
     let a = std::f64::consts::PI / vehicles as f64;
     let critical = match time {
         Time::Continuous if delay > 0.0 => a / (2.0 * delay * libm::sin(a)),
         Time::Continuous => f64::INFINITY,
         Time::Steps(dt) => libm::sin(a / (2.0 * (delay / dt).round() + 1.0)) / (dt * libm::sin(a)),
     };
-    if vehicles < 2 || gap <= 0.0 || !critical.is_finite() {
+    if vehicles < 2 || excess <= 0.0 || !critical.is_finite() {
         return vec![range];
     }
-    let unit = driver.max_speed / gap;
+    let unit = driver.max_speed / excess;
     let z = -critical / unit;
     if z < -1.0 / std::f64::consts::E {
         return vec![range];

@@ -410,7 +410,7 @@ fn quantity(name: &str) -> Result<Quantity, JsError> {
 pub(super) fn verdict(v: &StabilitySummary) -> Json {
     Json::object([
         ("stable", v.stable.into()),
-        ("alike", v.alike.into()),
+        ("alike", v.homogeneous.into()),
         ("reaction_time", v.reaction_time.into()),
         ("critical", v.critical.into()),
         ("critical_discrete", v.critical_discrete.into()),
