@@ -95,7 +95,7 @@ fn pictures_are_well_formed_and_say_what_they_show() {
 #[test]
 fn pieces_may_be_done_in_any_order_and_cross_as_arrays() {
     let figure = Figure::named("load-balance").unwrap();
-    let count = figure.pieces(Size::Small).len();
+    let count = figure.tasks(Size::Small).len();
     let mut pieces: Vec<Option<TaskResult>> = vec![None; count];
     for k in (0..count).rev() {
         let crossed = figure.run(Size::Small, k).flat();
@@ -111,7 +111,7 @@ fn pieces_may_be_done_in_any_order_and_cross_as_arrays() {
 #[test]
 fn work_in_slices_gives_the_same_as_work_at_once() {
     let figure = Figure::named("stability").unwrap();
-    let last = figure.pieces(Size::Small).len() - 1;
+    let last = figure.tasks(Size::Small).len() - 1;
     let mut work = figure.start(Size::Small, last);
     let mut slices = 0;
     let piece = loop {
@@ -215,7 +215,7 @@ fn every_row_of_the_specification_is_there() {
 fn a_perturbed_value_flips_its_verdict() {
     let figure = Figure::named("load-balance").unwrap();
     let mut pieces: Vec<TaskResult> =
-        (0..figure.pieces(Size::Small).len()).map(|k| figure.run(Size::Small, k)).collect();
+        (0..figure.tasks(Size::Small).len()).map(|k| figure.run(Size::Small, k)).collect();
     let verdict = |pieces: &[TaskResult]| {
         let outcome = figure.assemble(Size::Small, pieces).unwrap();
         claim(&outcome.claims, "the lanes become balanced").verdict()

@@ -1,10 +1,13 @@
 //! One aggressive driver among fifty: what it gains, and what it does to the others.
 
-use super::{Figure, FigureTable, Outcome, Size, Spread, TaskResult, indicator, observed};
+use super::claim::{Claim, Estimate, Expected};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{Spread, indicator, observed};
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::probe::Probe;
+use crate::numerics::statistics::mean;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, mean};
 use crate::scenario::{Scenario, Start};
 use crate::simulation::{Event, Simulation};
 
@@ -18,8 +21,8 @@ pub(super) const FIGURE: Figure = Figure {
               vehicle 27 ahead and vehicle 26 behind. 20 runs with seeds 1 to 20; mean, and standard deviation as a \
               band.",
     beyond: false,
-    pieces,
-    start: |size, piece| Box::new(move || run(size, piece)),
+    tasks,
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
@@ -35,7 +38,7 @@ fn until(size: Size) -> f64 {
     size.choose(500.0, 200.0)
 }
 
-fn pieces(size: Size) -> Vec<String> {
+fn tasks(size: Size) -> Vec<String> {
     let each = (1..=runs(size)).map(|seed| format!("run {seed}"));
     each.chain(["without the aggressive driver".to_owned()]).collect()
 }
@@ -160,9 +163,9 @@ impl Probe for Follow {
     }
 }
 
-fn run(size: Size, piece: usize) -> TaskResult {
-    let aggressive = piece < runs(size);
-    let scenario = scenario(size, aggressive, if aggressive { piece as u64 + 1 } else { 1 });
+fn run(size: Size, task: usize) -> TaskResult {
+    let aggressive = task < runs(size);
+    let scenario = scenario(size, aggressive, if aggressive { task as u64 + 1 } else { 1 });
     let mut follow = Follow { log: Log::default(), every: scenario.steps(EVERY), lane_changes: 0 };
     let simulation = observed(&scenario, &mut follow);
     let log = follow.log;
@@ -184,15 +187,15 @@ fn run(size: Size, piece: usize) -> TaskResult {
     TaskResult { columns }
 }
 
-/// Places of the columns of a piece.
+/// Places of the columns of a task result.
 const CHANGES: usize = 1;
 const DISTANCES: usize = 4;
 const FACTS: usize = 7;
 const LAST_CHANGES: usize = 8;
 const LAST_DISTANCES: usize = 9;
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
-    let (runs, alone) = pieces.split_at(runs(size));
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
+    let (runs, alone) = results.split_at(runs(size));
     let time = runs[0].columns[0].clone();
     let spread = |k: usize| Spread::of(&runs.iter().map(|p| p.columns[k].as_slice()).collect::<Vec<_>>());
     let names = ["aggressive", "control_ahead", "control_behind"];
@@ -248,7 +251,7 @@ fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
 
 fn claims(size: Size, runs: &[TaskResult], alone: &TaskResult) -> Vec<Claim> {
     let until = until(size);
-    let last = |piece: &TaskResult, k: usize| *piece.columns[k].last().expect("a row at the end");
+    let last = |result: &TaskResult, k: usize| *result.columns[k].last().expect("a row at the end");
     let over = |f: &dyn Fn(&TaskResult) -> f64| Estimate::mean(&runs.iter().map(f).collect::<Vec<_>>());
     let fact = |k: usize| over(&|p: &TaskResult| p.columns[FACTS][k]);
     let seeds = format!("{} runs, seeds 1 to {0}, 95 % interval.", runs.len());

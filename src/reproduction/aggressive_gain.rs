@@ -1,10 +1,13 @@
 //! Beyond the paper: what aggressive drivers gain, against how aggressive they are, how many, and how dense the
 //! traffic is.
 
-use super::{Figure, FigureTable, Outcome, Size, TaskResult, measured};
+use super::claim::{Claim, Estimate, Expected};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::measured;
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
+use crate::numerics::statistics::mean;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, mean};
 use crate::scenario::{Scenario, Start};
 
 const ID: &str = "aggressive-gain";
@@ -17,14 +20,14 @@ pub(super) const FIGURE: Figure = Figure {
               vehicles. 20 runs each, seeds 1 to 20. Gain: mean distance of the aggressive over that of all \
               others; mean and 95 % confidence interval.",
     beyond: true,
-    pieces: |size| {
+    tasks: |size| {
         let each = |point: &Point| {
             let name = point.name();
             (1..=runs(size)).map(move |seed| format!("{name}, run {seed}")).collect::<Vec<_>>()
         };
         points(size).iter().flat_map(each).collect()
     },
-    start: |size, piece| Box::new(move || run(size, piece)),
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
@@ -79,8 +82,8 @@ fn runs(size: Size) -> usize {
 }
 
 /// Gain in per cent, lane changes of an aggressive and of another driver, mean speed of all.
-fn run(size: Size, piece: usize) -> TaskResult {
-    let (point, seed) = (piece / runs(size), piece % runs(size) + 1);
+fn run(size: Size, task: usize) -> TaskResult {
+    let (point, seed) = (task / runs(size), task % runs(size) + 1);
     let scenario = points(size)[point].scenario(size, seed as u64);
     let (_, simulation) = measured(&scenario, &[]);
     let split = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
@@ -109,9 +112,9 @@ struct Series {
 }
 
 impl Series {
-    fn of(size: Size, pieces: &[TaskResult], x: impl Fn(Point) -> Option<f64>) -> Self {
+    fn of(size: Size, results: &[TaskResult], x: impl Fn(Point) -> Option<f64>) -> Self {
         let mut series = Self { x: Vec::new(), values: Default::default() };
-        for (point, of_point) in points(size).into_iter().zip(pieces.chunks(runs(size))) {
+        for (point, of_point) in points(size).into_iter().zip(results.chunks(runs(size))) {
             if let Some(at) = x(point) {
                 series.x.push(at);
                 for (k, values) in series.values.iter_mut().enumerate() {
@@ -177,11 +180,11 @@ impl Series {
     }
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
-    let lambda = Series::of(size, pieces, |p| if let Point::Sensitivity(l) = p { Some(l) } else { None });
-    let share = Series::of(size, pieces, |p| if let Point::Share(s) = p { Some(s) } else { None });
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
+    let lambda = Series::of(size, results, |p| if let Point::Sensitivity(l) = p { Some(l) } else { None });
+    let share = Series::of(size, results, |p| if let Point::Share(s) = p { Some(s) } else { None });
     let density =
-        Series::of(size, pieces, |p| if let Point::Vehicles(n) = p { Some(n as f64) } else { None });
+        Series::of(size, results, |p| if let Point::Vehicles(n) = p { Some(n as f64) } else { None });
     let base = Point::Sensitivity(2.0).scenario(size, 1);
     let how = |what: &str| format!("{} runs for each {what}, seeds 1 to {0}", runs(size));
     let lambda_column =

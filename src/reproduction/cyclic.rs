@@ -5,6 +5,7 @@
 //! trip of the disturbance, which goes backwards past c = dv/dh vehicles a second and so meets a vehicle again after
 //! N/c = 68.3 s. The second fits what the paper says of Δ = 0.8 s, a collision "within one cycle".
 
+use super::shared::column;
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::measurement::probe::{Probe, measure};
@@ -88,12 +89,12 @@ pub(super) struct Depths {
 }
 
 impl Depths {
-    /// From the columns of a piece.
+    /// From the columns of a task result.
     pub fn new(columns: &[Vec<f64>]) -> Self {
         Self { columns: columns.to_vec() }
     }
 
-    /// As columns of a piece.
+    /// As columns of a task result.
     pub fn into_columns(self) -> Vec<Vec<f64>> {
         self.columns
     }
@@ -112,7 +113,7 @@ impl Depths {
         let mut tables: Vec<Table> = probes.iter().map(|p| p.table()).collect();
         let of_growth = tables.split_off(further);
         let (trips, crossings) = of_growth.split_last().expect("the round trips");
-        let depth = |t: &Table| super::column(t, "f_m_per_s");
+        let depth = |t: &Table| column(t, "f_m_per_s");
         let mut columns: Vec<_> = crossings.iter().map(depth).collect();
         let all = depth(trips);
         let complete = ((simulation.time() / round_trip()) as usize).min(MOST[1]);

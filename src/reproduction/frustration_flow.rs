@@ -1,10 +1,13 @@
 //! Beyond the paper: flow, balance and lane changes over the plane of r and p.
 
-use super::{Figure, FigureTable, Outcome, Size, TaskResult, column, measured};
+use super::claim::{Claim, Estimate, Expected};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{column, measured};
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
+use crate::numerics::statistics::mean;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, mean};
 use crate::scenario::{Scenario, Start};
 
 const ID: &str = "frustration-flow";
@@ -15,12 +18,12 @@ pub(super) const FIGURE: Figure = Figure {
     caption: "Fifty vehicles start in lane 1 of two, steps of 0.05 s, no reaction time; r and p each from 0.001 to 1 in \
               thirds of a power of ten. Means over 60 to 300 s and 8 runs, seeds 1 to 8.",
     beyond: true,
-    pieces: |size| {
+    tasks: |size| {
         let rates = rates(size);
         let pairs = rates.iter().flat_map(|r| rates.iter().map(move |p| format!("r = {r}, p = {p}")));
         pairs.collect()
     },
-    start: |size, piece| Box::new(move || run(size, piece)),
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
@@ -55,9 +58,9 @@ fn scenario(size: Size, r: f64, p: f64, seed: u64) -> Scenario {
 }
 
 /// Run by run: flow (veh/s), ΔN, lane changes of a vehicle a minute; all from 60 s on.
-fn run(size: Size, piece: usize) -> TaskResult {
+fn run(size: Size, task: usize) -> TaskResult {
     let rates = rates(size);
-    let (r, p) = (rates[piece / rates.len()], rates[piece % rates.len()]);
+    let (r, p) = (rates[task / rates.len()], rates[task % rates.len()]);
     let mut columns = vec![Vec::new(); 3];
     for seed in 1..=runs(size) {
         let scenario = scenario(size, r, p, seed);
@@ -79,11 +82,11 @@ fn run(size: Size, piece: usize) -> TaskResult {
     TaskResult { columns }
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
     let rates = rates(size);
     let k = rates.len();
     let each = |which: usize| -> Vec<Estimate> {
-        pieces.iter().map(|piece| Estimate::mean(&piece.columns[which])).collect()
+        results.iter().map(|result| Estimate::mean(&result.columns[which])).collect()
     };
     let quantities = [
         ("flow", "_veh_per_s", "veh/s", "flow, mean speed times density, both lanes"),

@@ -1,10 +1,13 @@
 //! Two lanes share the load: all vehicles start in one of them.
 
-use super::{Figure, FigureTable, Outcome, Size, Spread, TaskResult, column, measured};
+use super::claim::{Claim, Estimate, Expected};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{Spread, column, measured};
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
+use crate::numerics::statistics::mean;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, mean};
 use crate::scenario::driver::Driver;
 use crate::scenario::{Scenario, Start};
 use crate::simulation::frustration::attempt_probability;
@@ -19,8 +22,8 @@ pub(super) const FIGURE: Figure = Figure {
               95 % confidence interval of the mean. Beside them, in orange, the same with r = 0.01 /s, p = 0.02. What is \
               left in the long run is smaller than the noise of 10 runs: claims about it take 100, seeds 1 to 100.",
     beyond: false,
-    pieces,
-    start: |size, piece| Box::new(move || run(size, piece)),
+    tasks,
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
@@ -43,7 +46,7 @@ fn until(size: Size) -> f64 {
     size.choose(300.0, 100.0)
 }
 
-fn pieces(size: Size) -> Vec<String> {
+fn tasks(size: Size) -> Vec<String> {
     let each = |&(r, p): &(f64, f64)| {
         (1..=long_runs(size)).map(move |seed| format!("run {seed} with r = {r}, p = {p}")).collect::<Vec<_>>()
     };
@@ -66,8 +69,8 @@ fn scenario(size: Size, (r, p): (f64, f64), seed: u64) -> Scenario {
 }
 
 /// ΔN from 60 s on and over the last 50 s; then, of a run of the figure, time, ΔN, flow; a row each half second.
-fn run(size: Size, piece: usize) -> TaskResult {
-    let (which, seed) = (piece / long_runs(size), piece % long_runs(size) + 1);
+fn run(size: Size, task: usize) -> TaskResult {
+    let (which, seed) = (task / long_runs(size), task % long_runs(size) + 1);
     let scenario = scenario(size, PATIENCE[which], seed as u64);
     let flow = Measurement::Flow { every: 0.5, window: 5.0, at: None };
     let (tables, _) = measured(&scenario, &[Measurement::Lanes { every: 0.5 }, flow]);
@@ -109,13 +112,13 @@ struct Group<'a> {
 }
 
 impl<'a> Group<'a> {
-    fn of(size: Size, pieces: &'a [TaskResult]) -> Self {
-        let long = |k: usize| Estimate::mean(&pieces.iter().map(|p| p.columns[0][k]).collect::<Vec<_>>());
-        let column = |k: usize| pieces[..runs(size)].iter().map(|p| p.columns[k].as_slice()).collect();
+    fn of(size: Size, results: &'a [TaskResult]) -> Self {
+        let long = |k: usize| Estimate::mean(&results.iter().map(|p| p.columns[0][k]).collect::<Vec<_>>());
+        let column = |k: usize| results[..runs(size)].iter().map(|p| p.columns[k].as_slice()).collect();
         Self {
             late: long(0),
             last: long(1),
-            time: &pieces[0].columns[1],
+            time: &results[0].columns[1],
             imbalance: column(2),
             flow: column(3),
         }
@@ -143,8 +146,8 @@ impl<'a> Group<'a> {
     }
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
-    let (paper, tenth) = pieces.split_at(long_runs(size));
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
+    let (paper, tenth) = results.split_at(long_runs(size));
     let (paper, tenth) = (Group::of(size, paper), Group::of(size, tenth));
     let how = |(r, p): (f64, f64)| format!("{} runs, seeds 1 to {0}, r = {r} /s, p = {p}", runs(size));
     let tables = vec![

@@ -1,12 +1,14 @@
 //! Growth against reaction time, in the simulation and in theory, and the critical reaction time against N.
 
+use super::claim::{Claim, Estimate, Expected};
 use super::cyclic::{Depths, Period, TAKEN, round_trip};
-use super::{Figure, FigureTable, Outcome, Size, Task, TaskResult, column, indicator, nudged};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{column, indicator, nudged};
+use super::task::{Size, Task, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::measurement::probe::Probe;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected};
 use crate::scenario::driver::Driver;
 use crate::simulation::Simulation;
 use crate::stability::homogeneous::{HomogeneousRing, Time};
@@ -22,7 +24,7 @@ pub(super) const FIGURE: Figure = Figure {
               runs of 3000 s in steps of 0.01 s after a displacement of 1 mm, searched by bisection for the step at which \
               the longest wave begins to grow.",
     beyond: false,
-    pieces,
+    tasks,
     start,
     assemble,
 };
@@ -40,7 +42,7 @@ fn rings(size: Size) -> Vec<usize> {
     size.choose(vec![20, 30, 40, 50, 65, 80, 100, 133], vec![50])
 }
 
-fn pieces(size: Size) -> Vec<String> {
+fn tasks(size: Size) -> Vec<String> {
     let delays = reaction_times(size).into_iter().map(|d| format!("reaction time {d} s"));
     delays.chain(rings(size).iter().map(|n| format!("critical reaction time of {n} vehicles"))).collect()
 }
@@ -49,13 +51,13 @@ fn ring(vehicles: usize) -> HomogeneousRing {
     HomogeneousRing { vehicles, slope: Driver::default().slope(1000.0 / vehicles as f64) }
 }
 
-fn start(size: Size, piece: usize) -> Box<dyn Task> {
+fn start(size: Size, task: usize) -> Box<dyn Task> {
     let delays = reaction_times(size);
-    if let Some(&delay) = delays.get(piece) {
+    if let Some(&delay) = delays.get(task) {
         return Box::new(move || TaskResult { columns: vec![growth(delay)] });
     }
     Box::new(Search {
-        vehicles: rings(size)[piece - delays.len()],
+        vehicles: rings(size)[task - delays.len()],
         until: size.choose(3000.0, 2000.0),
         fades: 20,
         growing: 160,
@@ -138,9 +140,9 @@ impl Task for Search {
     }
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
     let delays = reaction_times(size);
-    let (scans, thresholds) = pieces.split_at(delays.len());
+    let (scans, thresholds) = results.split_at(delays.len());
     let values = |k: usize| scans.iter().map(|p| p.columns[0][k]).collect::<Vec<f64>>();
     let ring50 = ring(50);
     let fastest = |delay: f64, time| ring50.fastest(delay, time).map_or(f64::NAN, |m| m.root.re);

@@ -1,16 +1,16 @@
 //! A small disturbance at three reaction times: speeds of five vehicles, and flow over space and time.
 
+use super::claim::{Claim, Estimate, Expected, short};
 use super::cyclic::{Choice, Depths, TAKEN, equilibrium_speed, round_trip};
-use super::{
-    Figure, FigureTable, Outcome, Size, TaskResult, column, indicator, measured, nudged, numbers, refilled,
-};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{column, indicator, measured, nudged, numbers, refilled};
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::measurement::probe::Probe;
 use crate::numerics::exp::exp;
 use crate::numerics::least_squares;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, short};
 use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
 use crate::simulation::Simulation;
@@ -28,8 +28,8 @@ pub(super) const FIGURE: Figure = Figure {
               less the equilibrium speed, which shows also what is too small to change a count of vehicles; blue is \
               slower. The run at 0.75 s ends in a collision.",
     beyond: false,
-    pieces,
-    start: |size, piece| Box::new(move || run(size, piece)),
+    tasks,
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
@@ -42,7 +42,7 @@ const BINS: usize = 100;
 /// δ, s.
 const WINDOW: f64 = 18.63;
 
-fn pieces(_: Size) -> Vec<String> {
+fn tasks(_: Size) -> Vec<String> {
     let panels = CASES.iter().map(|c| format!("reaction time {} s", c.0));
     panels.chain(NEIGHBOURS.iter().map(|d| format!("collision at {d} s"))).collect()
 }
@@ -61,9 +61,9 @@ fn measurements(size: Size) -> [Measurement; 3] {
 }
 
 /// A panel: columns of the two tables, then what [`Waves`] saw, the time of the collision, and all [`Depths`].
-fn run(size: Size, piece: usize) -> TaskResult {
-    let Some(&(reaction_time, _)) = CASES.get(piece) else {
-        let scenario = scenario(size, NEIGHBOURS[piece - CASES.len()]);
+fn run(size: Size, task: usize) -> TaskResult {
+    let Some(&(reaction_time, _)) = CASES.get(task) else {
+        let scenario = scenario(size, NEIGHBOURS[task - CASES.len()]);
         let (_, simulation) = measured(&scenario, &[]);
         return TaskResult { columns: vec![vec![collision_time(&simulation)]] };
     };
@@ -143,7 +143,7 @@ impl Waves {
     }
 }
 
-/// A piece of a panel, taken apart again.
+/// A task result of a panel, in its parts.
 struct Case<'a> {
     reaction_time: f64,
     tables: [Table; 3],
@@ -155,10 +155,10 @@ struct Case<'a> {
 }
 
 impl<'a> Case<'a> {
-    fn of(size: Size, case: usize, piece: &'a TaskResult) -> Self {
+    fn of(size: Size, case: usize, result: &'a TaskResult) -> Self {
         let scenario = scenario(size, CASES[case].0);
         let [speeds, flow, map] = measurements(size);
-        let (speed_columns, rest) = piece.columns.split_at(6);
+        let (speed_columns, rest) = result.columns.split_at(6);
         let (flow_columns, rest) = rest.split_at(3);
         let (map_columns, rest) = rest.split_at(3);
         Self {
@@ -259,10 +259,10 @@ fn equilibrium_flow() -> f64 {
     Driver::default().flow(0.05)
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
     let cases: Vec<Case> =
-        pieces[..CASES.len()].iter().enumerate().map(|(k, piece)| Case::of(size, k, piece)).collect();
-    let neighbours: Vec<f64> = pieces[CASES.len()..].iter().map(|p| p.columns[0][0]).collect();
+        results[..CASES.len()].iter().enumerate().map(|(k, result)| Case::of(size, k, result)).collect();
+    let neighbours: Vec<f64> = results[CASES.len()..].iter().map(|p| p.columns[0][0]).collect();
     let mut tables = Vec::new();
     for case in &cases {
         let scenario = scenario(size, case.reaction_time);
@@ -500,14 +500,14 @@ mod tests {
 
     #[test]
     fn a_verdict_flips_with_its_value() {
-        let pieces: Vec<TaskResult> = (0..5).map(|k| run(Size::Small, k)).collect();
-        let upstream = |pieces: &[TaskResult]| {
-            let claims = assemble(Size::Small, pieces).claims;
+        let results: Vec<TaskResult> = (0..5).map(|k| run(Size::Small, k)).collect();
+        let upstream = |results: &[TaskResult]| {
+            let claims = assemble(Size::Small, results).claims;
             let claim = claims.into_iter().find(|c| c.claim.contains("upstream at Δ = 0.75"));
             claim.expect("the claim").verdict()
         };
-        assert_eq!(upstream(&pieces), ClaimVerdict::Agrees);
-        let mut perturbed = pieces;
+        assert_eq!(upstream(&results), ClaimVerdict::Agrees);
+        let mut perturbed = results;
         perturbed[2].columns[12][0] *= -1.0;
         assert_eq!(upstream(&perturbed), ClaimVerdict::Differs);
     }
