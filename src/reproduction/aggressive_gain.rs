@@ -1,5 +1,4 @@
-//! Beyond the paper: what aggressive drivers gain, against how aggressive they are, how many, and how dense the
-//! traffic is.
+//! Beyond the paper: the gain of aggressive drivers against their λ, their share and the density of traffic.
 
 use super::claim::{Claim, Estimate, Expected};
 use super::figure::{Figure, FigureTable, Outcome};
@@ -31,10 +30,14 @@ pub(super) const FIGURE: Figure = Figure {
     assemble,
 };
 
+/// What is varied, and its value; the rest is as in the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Point {
+    /// λ of the one aggressive driver, 1/s.
     Sensitivity(f64),
+    /// Share of aggressive drivers, %.
     Share(f64),
+    /// Number of vehicles, one of them aggressive.
     Vehicles(usize),
 }
 
@@ -48,7 +51,7 @@ impl Point {
     }
 
     fn scenario(self, size: Size, seed: u64) -> Scenario {
-        let exception = match self {
+        let driver_override = match self {
             Self::Sensitivity(lambda) => format!("1:sensitivity={lambda}"),
             Self::Share(share) => format!("{share}%:sensitivity=2"),
             Self::Vehicles(_) => "1:sensitivity=2".to_owned(),
@@ -60,7 +63,7 @@ impl Point {
             time_step: 0.05,
             until: size.choose(500.0, 100.0),
             seed,
-            exceptions: vec![exception.parse().expect("the grammar of exceptions")],
+            exceptions: vec![driver_override.parse().expect("the grammar of driver overrides")],
             ..Scenario::default()
         }
     }
@@ -70,7 +73,7 @@ fn points(size: Size) -> Vec<Point> {
     let lambdas: &[f64] = size.choose(&[1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0], &[2.0, 4.0]);
     let shares: &[f64] =
         size.choose(&[2.0, 4.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0], &[10.0]);
-    // From 140 on nobody changes lane.
+    // From 140 vehicles on there are no lane changes.
     let counts: &[usize] = size.choose(&[20, 40, 60, 80, 100, 120, 140, 200], &[50, 100]);
     let lambdas = lambdas.iter().map(|&l| Point::Sensitivity(l));
     let shares = shares.iter().map(|&s| Point::Share(s));
@@ -81,12 +84,12 @@ fn runs(size: Size) -> usize {
     size.choose(20, 3)
 }
 
-/// Gain in per cent, lane changes of an aggressive and of another driver, mean speed of all.
+/// Gain in per cent, mean lane changes of the aggressive and of the other drivers, mean speed of all in m/s.
 fn run(size: Size, task: usize) -> TaskResult {
     let (point, seed) = (task / runs(size), task % runs(size) + 1);
     let scenario = points(size)[point].scenario(size, seed as u64);
     let (_, simulation) = measured(&scenario, &[]);
-    let split = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
+    let mean_of = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
         let each =
             (0..simulation.vehicles()).filter(|&j| (simulation.driver(j).sensitivity > 1.0) == aggressive);
         mean(&each.map(f).collect::<Vec<_>>())
@@ -96,18 +99,18 @@ fn run(size: Size, task: usize) -> TaskResult {
     let all: Vec<f64> = (0..simulation.vehicles()).map(distance).collect();
     TaskResult {
         columns: vec![vec![
-            100.0 * (split(&distance, true) / split(&distance, false) - 1.0),
-            split(&changes, true),
-            split(&changes, false),
+            100.0 * (mean_of(&distance, true) / mean_of(&distance, false) - 1.0),
+            mean_of(&changes, true),
+            mean_of(&changes, false),
             mean(&all) / simulation.time(),
         ]],
     }
 }
 
-/// A curve: points of one kind.
+/// The results of all points at which the same thing is varied.
 struct Series {
     x: Vec<f64>,
-    /// Gain, lane changes of the aggressive, of the others, mean speed.
+    /// Gain, lane changes of the aggressive drivers, of the others, mean speed; one value for each point.
     values: [Vec<Estimate>; 4],
 }
 
@@ -225,7 +228,7 @@ fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
             .expect("a point");
         Claim::new(
             ID,
-            format!("beyond the paper: the gain stays under 2 % whatever the {what}; the largest"),
+            format!("beyond the paper: the gain stays under 2 % for every {what}; the largest"),
             "%",
             Expected::AtMost(2.0),
             *largest,

@@ -1,4 +1,4 @@
-//! Beyond the paper: flow, balance and lane changes over the plane of r and p.
+//! Beyond the paper: flow, balance and lane changes against r and p.
 
 use super::claim::{Claim, Estimate, Expected};
 use super::figure::{Figure, FigureTable, Outcome};
@@ -27,9 +27,10 @@ pub(super) const FIGURE: Figure = Figure {
     assemble,
 };
 
-/// Thirds of a power of ten.
+/// 10^(k/3) for k = 0, 1, 2.
 const THIRDS: [f64; 3] = [1.0, 2.154_435, 4.641_589];
 
+/// Values of r and of p.
 fn rates(size: Size) -> Vec<f64> {
     let decades: &[f64] = size.choose(&[1e-3, 1e-2, 1e-1], &[1e-2]);
     let mut rates: Vec<f64> = decades.iter().flat_map(|decade| THIRDS.map(|third| decade * third)).collect();
@@ -57,7 +58,7 @@ fn scenario(size: Size, r: f64, p: f64, seed: u64) -> Scenario {
     scenario
 }
 
-/// Run by run: flow (veh/s), ΔN, lane changes of a vehicle a minute; all from 60 s on.
+/// Three columns with a row for each run: flow (veh/s), ΔN, lane changes per vehicle and minute; all from 60 s on.
 fn run(size: Size, task: usize) -> TaskResult {
     let rates = rates(size);
     let (r, p) = (rates[task / rates.len()], rates[task % rates.len()]);
@@ -117,14 +118,14 @@ fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
         let values: Vec<f64> = each(which).iter().map(|e| e.value).collect();
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        // Rows of the map are values of p.
-        let turned = (0..k).flat_map(|p| (0..k).map(move |r| r * k + p)).map(|i| values[i]).collect();
+        // The results are in the order of r; the rows of the map are values of p.
+        let transposed = (0..k).flat_map(|p| (0..k).map(move |r| r * k + p)).map(|i| values[i]).collect();
         let map = Layer::Map {
             name: name.into(),
             width: k,
             x: ends,
             y: ends,
-            values: turned,
+            values: transposed,
             range: (low, high.max(low + 1e-9)),
             middle: None,
             signed_log: false,

@@ -1,4 +1,4 @@
-//! The speed law and the fundamental diagram, theory and, as points, rings that were run.
+//! The speed law and the fundamental diagram: curves from the formulas, and points from runs of uniform rings.
 
 use super::claim::{Claim, Estimate, Expected};
 use super::figure::{Figure, FigureTable, Outcome};
@@ -23,6 +23,7 @@ pub(super) const FIGURE: Figure = Figure {
     assemble,
 };
 
+/// Numbers of vehicles of the rings that are run.
 fn rings(size: Size) -> Vec<usize> {
     size.choose((5..=130).step_by(5).chain([134, 140]).collect(), vec![25, 50, 134])
 }
@@ -31,7 +32,7 @@ fn scenario(vehicles: usize) -> Scenario {
     Scenario { vehicles, until: 60.0, ..Scenario::default() }
 }
 
-/// Flow, veh/s.
+/// The flow of a ring, veh/s.
 fn run(size: Size, task: usize) -> TaskResult {
     let scenario = scenario(rings(size)[task]);
     let (tables, _) = measured(&scenario, &[Measurement::Drivers { every: 60.0 }]);
@@ -180,7 +181,7 @@ fn claims(driver: &Driver, flow_at: &dyn Fn(usize) -> f64) -> Vec<Claim> {
             "flow rises with density up to ρ*, then falls",
             "",
             Expected::AtMost(0.0),
-            Estimate::exact(wrong_turns(driver, top.density) as f64),
+            Estimate::exact(steps_against_the_shape(driver, top.density) as f64),
             "Number of steps of 0.1 veh/km between 0 and 1/d at which flow changes in the other direction.",
         ),
         about(
@@ -194,7 +195,8 @@ fn claims(driver: &Driver, flow_at: &dyn Fn(usize) -> f64) -> Vec<Claim> {
     ]
 }
 
-fn wrong_turns(driver: &Driver, critical: f64) -> usize {
+/// Steps of 0.1 veh/km at which the flow does not rise below the critical density (veh/m) or does not fall above it.
+fn steps_against_the_shape(driver: &Driver, critical: f64) -> usize {
     (0..1333)
         .map(|i| (f64::from(i) * 1e-4, f64::from(i + 1) * 1e-4))
         .filter(|&(a, b)| {

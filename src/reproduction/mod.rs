@@ -8,7 +8,8 @@
 //! | [`task`] | the units of work of a figure and their results |
 //! | [`claim`] | a claim of the paper beside our value, with a verdict that is computed |
 //! | `shared` | what several figures share |
-//! | the others | one figure each, and `cyclic`: the choices behind the cyclic growth rate k |
+//! | `cyclic`, `wave_analysis` | the cyclic growth rate k under every choice that the paper leaves open; waves in a map of speeds |
+//! | the others | one figure each |
 //!
 //! Run k of a figure with random draws has seed k, counted from 1.
 //!
@@ -35,6 +36,7 @@ mod load_balance;
 mod shared;
 mod stability;
 pub mod task;
+mod wave_analysis;
 mod waves;
 
 pub use figure::{Figure, FigureTable, Outcome};

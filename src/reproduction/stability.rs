@@ -1,4 +1,4 @@
-//! Growth against reaction time, in the simulation and in theory, and the critical reaction time against N.
+//! Growth against reaction time and the critical reaction time against N, each in the simulation and in theory.
 
 use super::claim::{Claim, Estimate, Expected};
 use super::cyclic::{Depths, Period, TAKEN, round_trip};
@@ -29,8 +29,10 @@ pub(super) const FIGURE: Figure = Figure {
     assemble,
 };
 
+/// Time step, s.
 const STEP: f64 = 0.01;
 
+/// Reaction times at which k is measured, s.
 fn reaction_times(size: Size) -> Vec<f64> {
     size.choose((0..=16).collect::<Vec<i32>>(), vec![0, 10, 13, 15, 16])
         .iter()
@@ -38,6 +40,7 @@ fn reaction_times(size: Size) -> Vec<f64> {
         .collect()
 }
 
+/// Numbers of vehicles for which the critical reaction time is searched.
 fn rings(size: Size) -> Vec<usize> {
     size.choose(vec![20, 30, 40, 50, 65, 80, 100, 133], vec![50])
 }
@@ -47,6 +50,7 @@ fn tasks(size: Size) -> Vec<String> {
     delays.chain(rings(size).iter().map(|n| format!("critical reaction time of {n} vehicles"))).collect()
 }
 
+/// The ring of 1 km with so many vehicles, in theory.
 fn ring(vehicles: usize) -> HomogeneousRing {
     HomogeneousRing { vehicles, slope: Driver::default().slope(1000.0 / vehicles as f64) }
 }
@@ -60,12 +64,13 @@ fn start(size: Size, task: usize) -> Box<dyn Task> {
         vehicles: rings(size)[task - delays.len()],
         until: size.choose(3000.0, 2000.0),
         fades: 20,
-        growing: 160,
+        grows: 160,
         run: None,
     })
 }
 
-/// k with its standard error, time of a collision, complete round trips, end of the run, upward crossings of vehicle 21.
+/// k of vehicle 21 with its standard error, time of the collision, number of complete round trips, number of upward
+/// crossings of vehicle 21.
 fn growth(reaction_time: f64) -> Vec<f64> {
     let scenario = nudged(reaction_time, 1.0, 300.0);
     let (depths, _, simulation) = Depths::measure(&scenario, Vec::new());
@@ -80,24 +85,26 @@ fn growth(reaction_time: f64) -> Vec<f64> {
     ]
 }
 
-/// Looks by bisection for the largest delay, in steps, at which the longest wave fades, and the next, at which it grows.
+/// The search by bisection for the largest delay, in steps, at which the longest wave fades; at the next one it grows.
 struct Search {
     vehicles: usize,
+    /// End of a run near the threshold, s.
     until: f64,
+    /// A delay at which the wave fades and a longer one at which it grows, in steps.
     fades: u32,
-    growing: u32,
-    /// The run at the delay between the two.
+    grows: u32,
+    /// The run that is going on, at the delay in the middle of the two.
     run: Option<(Simulation, Box<dyn Probe>)>,
 }
 
 impl Search {
     fn middle(&self) -> u32 {
-        u32::midpoint(self.fades, self.growing)
+        u32::midpoint(self.fades, self.grows)
     }
 
     fn begin(&self) -> (Simulation, Box<dyn Probe>) {
-        // Far from the threshold a wave shows soon what it does.
-        let until = if self.growing - self.fades > 16 { 1000.0 } else { self.until };
+        // Far from the threshold growth or decay is clear after a shorter run.
+        let until = if self.grows - self.fades > 16 { 1000.0 } else { self.until };
         let mut scenario = nudged(f64::from(self.middle()) * STEP, 1e-3, until);
         scenario.vehicles = self.vehicles;
         let growth = Measurement::Growth {
@@ -116,10 +123,10 @@ impl Search {
 }
 
 impl Task for Search {
-    /// The middle between the two, in steps.
+    /// The result is the threshold in steps: the middle of the last two delays.
     fn advance(&mut self, updates: u64) -> Option<TaskResult> {
         let mut steps = updates / self.vehicles as u64;
-        while self.growing - self.fades > 1 {
+        while self.grows - self.fades > 1 {
             let (mut simulation, mut probe) = self.run.take().unwrap_or_else(|| self.begin());
             while !simulation.is_finished() {
                 if steps == 0 {
@@ -131,10 +138,10 @@ impl Task for Search {
                 probe.observe(&simulation);
             }
             let rate = column(&probe.table(), "growth_rate_per_s")[0];
-            // No rate: the wave had left the linear regime by the start of the fit.
-            let grows = simulation.collision().is_some() || rate.is_nan() || rate > 0.0;
+            // Without a rate the wave had left the linear regime before the fit began, so it grows.
+            let unstable = simulation.collision().is_some() || rate.is_nan() || rate > 0.0;
             let middle = self.middle();
-            if grows { self.growing = middle } else { self.fades = middle }
+            if unstable { self.grows = middle } else { self.fades = middle }
         }
         Some(TaskResult { columns: vec![vec![f64::from(self.fades) + 0.5]] })
     }
@@ -215,19 +222,21 @@ fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
     Outcome { tables, plot, claims: claims(&Scan { delays, scans }, &continuous, &critical, at_50) }
 }
 
+/// The results at all reaction times.
 struct Scan<'a> {
     delays: Vec<f64>,
     scans: &'a [TaskResult],
 }
 
 impl Scan<'_> {
+    /// The numbers of [`growth`] at a reaction time.
     fn at(&self, delay: f64) -> &[f64] {
         let k =
             self.delays.iter().position(|d| (d - delay).abs() < 1e-9).expect("a reaction time of the scan");
         &self.scans[k].columns[0]
     }
 
-    /// The middle of the interval in which a rate changes its sign, and half its width.
+    /// The middle of the interval of reaction times in which a rate becomes positive, and half its width.
     fn sign_change(&self, rates: &[f64]) -> Estimate {
         let known: Vec<_> = self.delays.iter().zip(rates).filter(|r| !r.1.is_nan()).collect();
         known.windows(2).find(|w| *w[0].1 < 0.0 && *w[1].1 >= 0.0).map_or(Estimate::exact(f64::NAN), |w| {
