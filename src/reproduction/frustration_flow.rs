@@ -155,12 +155,12 @@ fn claims(size: Size, flows: &[Estimate]) -> Vec<Claim> {
     let half = flows.iter().map(|e| e.uncertainty).fold(0.0, f64::max);
     vec![Claim::new(
         ID,
-        "beyond the paper: r and p hardly matter for the flow, once balanced; largest over smallest, less one",
+        "beyond the paper: r and p hardly change the flow of balanced lanes; largest flow over smallest, less one",
         "%",
         Expected::AtMost(10.0),
         Estimate::new(100.0 * (best / worst - 1.0), 100.0 * libm::hypot(half, half) / worst),
         format!(
-            "{} pairs of r and p, {1} runs each, seeds 1 to {1}, 95 % interval from the widest of a mean; hardly: at most 10 %.",
+            "{} pairs of r and p, {1} runs each, seeds 1 to {1}, 95 % interval from the widest interval of a mean; hardly: at most 10 %.",
             flows.len(),
             runs(size)
         ),

@@ -229,6 +229,11 @@ struct Scan<'a> {
 }
 
 impl Scan<'_> {
+    /// k at every reaction time.
+    fn rates(&self) -> Vec<f64> {
+        self.scans.iter().map(|result| result.columns[0][0]).collect()
+    }
+
     /// The numbers of [`growth`] at a reaction time.
     fn at(&self, delay: f64) -> &[f64] {
         let k =
@@ -323,39 +328,48 @@ fn plot(
     }
 }
 
+/// A claim about a critical reaction time, in seconds.
+fn critical_claim(claim: &str, paper: f64, tolerance: f64, ours: Estimate, method: &str) -> Claim {
+    Claim::new(ID, claim, "s", Expected::About(paper, tolerance), ours, method)
+}
+
 fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<Claim> {
-    let about = |claim: &str, paper, tolerance, ours, method: &str| {
-        Claim::new(ID, claim, "s", Expected::About(paper, tolerance), ours, method)
-    };
-    let k: Vec<f64> = scan.scans.iter().map(|p| p.columns[0][0]).collect();
-    let at_08 = scan.at(0.8);
-    let falls = |rates: &[f64]| {
-        let known: Vec<f64> = rates.iter().copied().filter(|r| !r.is_nan()).collect();
-        known.windows(2).filter(|w| w[1] <= w[0]).count() as f64
-    };
-    let sign_changes = |rates: &[f64]| {
-        let known: Vec<f64> = rates.iter().copied().filter(|r| !r.is_nan()).collect();
-        known.windows(2).filter(|w| (w[0] < 0.0) != (w[1] < 0.0)).count() as f64
-    };
+    let mut claims = threshold_claims(scan, found);
+    claims.extend(reaction_time_claims(scan, real_parts));
+    claims.extend(collision_claims(scan));
+    claims.extend(vehicle_count_claims(critical));
+    claims.push(Claim::new(
+        ID,
+        "the simulation is stable at 0.65 s and unstable at 0.75 s",
+        "",
+        Expected::About(1.0, 0.0),
+        indicator(scan.at(0.65)[0] < 0.0 && scan.at(0.75)[0] > 0.0),
+        "Sign of k of vehicle 21 over three round trips; 1 means that both hold.",
+    ));
+    claims
+}
+
+/// The critical reaction time at N = 50, found in three ways.
+fn threshold_claims(scan: &Scan, found: f64) -> Vec<Claim> {
     let tolerance = "tolerance 0.05 s, the interval at which the paper looks.";
     vec![
-        about(
+        critical_claim(
             "critical reaction time τ at N = 50, linear theory",
             0.7,
             0.05,
             Estimate::exact(ring(50).critical(Time::Continuous)),
             &format!("τ = (π/N)/(2c·sin(π/N)); {tolerance}"),
         ),
-        about(
+        critical_claim(
             "critical reaction time τ at N = 50, simulation: where k changes sign",
             0.7,
             0.05,
-            scan.sign_change(&k),
+            scan.sign_change(&scan.rates()),
             &format!(
                 "Vehicle 21, three round trips, reaction times 0.05 s apart as in the paper; {tolerance}"
             ),
         ),
-        about(
+        critical_claim(
             "critical reaction time τ at N = 50, simulation: where the longest wave begins to grow",
             0.7,
             0.05,
@@ -364,25 +378,41 @@ fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<
                 "Displacement 1 mm, Fourier mode 1 from 500 s on, bisection over steps of 0.01 s; {tolerance}"
             ),
         ),
+    ]
+}
+
+/// Stability falls with the reaction time.
+fn reaction_time_claims(scan: &Scan, real_parts: &[f64]) -> Vec<Claim> {
+    let known = |rates: &[f64]| rates.iter().copied().filter(|r| !r.is_nan()).collect::<Vec<f64>>();
+    let falls = known(real_parts).windows(2).filter(|w| w[1] <= w[0]).count();
+    let sign_changes = known(&scan.rates()).windows(2).filter(|w| (w[0] < 0.0) != (w[1] < 0.0)).count();
+    vec![
         Claim::new(
             ID,
-            "a longer reaction time is less stable, simulation: times that k changes its sign from 0 to 0.8 s",
+            "a longer reaction time is less stable, simulation: number of times that k changes its sign from 0 to 0.8 s",
             "",
             Expected::About(1.0, 0.0),
-            Estimate::exact(sign_changes(&k)),
+            Estimate::exact(sign_changes as f64),
             "Vehicle 21, three round trips; from stable to unstable and never back.",
         ),
         Claim::new(
             ID,
-            "a longer reaction time is less stable, theory: falls of the largest real part from one reaction time to the next",
+            "a longer reaction time is less stable, theory: number of times that the largest real part falls from one reaction time to the next",
             "",
             Expected::AtMost(0.0),
-            Estimate::exact(falls(real_parts)),
+            Estimate::exact(falls as f64),
             format!(
                 "Characteristic roots of all modes at {} reaction times from 0 to 0.8 s.",
                 real_parts.len()
             ),
         ),
+    ]
+}
+
+/// The collision at Δ = 0.8 s.
+fn collision_claims(scan: &Scan) -> Vec<Claim> {
+    let at_08 = scan.at(0.8);
+    vec![
         Claim::new(
             ID,
             "collision within one cycle at Δ = 0.8 s: cycles before it",
@@ -398,21 +428,27 @@ fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<
         .or("upward crossings of v∞ by vehicle 21, at most 12 counted", Estimate::exact(at_08[4])),
         Claim::new(
             ID,
-            "no k can be had at Δ = 0.8 s: complete round trips before the collision",
+            "no k can be fitted at Δ = 0.8 s: complete round trips before the collision",
             "",
             Expected::AtMost(1.0),
             Estimate::exact(at_08[3]),
             "A fit needs two; a round trip of the disturbance is a period.",
         ),
+    ]
+}
+
+/// The critical reaction time against the number of vehicles, and its limit. `critical` begins at N = 2.
+fn vehicle_count_claims(critical: &[f64]) -> Vec<Claim> {
+    vec![
         Claim::new(
             ID,
-            "τ falls with the number of vehicles: rises from one N to the next",
+            "τ falls with the number of vehicles: number of times that it rises from one N to the next",
             "",
             Expected::AtMost(0.0),
             Estimate::exact(critical.windows(2).filter(|w| w[1] >= w[0]).count() as f64),
             "Linear theory at every N from 2 to 133.",
         ),
-        about(
+        critical_claim(
             "τ at N = 133, near the densest ring",
             0.5,
             0.005,
@@ -430,14 +466,6 @@ fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<
                         .critical(Time::Continuous),
             ),
             "Linear theory at a slope of λ and a million vehicles; tolerance 1e-9.",
-        ),
-        Claim::new(
-            ID,
-            "the simulation is stable at 0.65 s and unstable at 0.75 s",
-            "",
-            Expected::About(1.0, 0.0),
-            indicator(scan.at(0.65)[0] < 0.0 && scan.at(0.75)[0] > 0.0),
-            "Sign of k of vehicle 21 over three round trips; 1 means that both hold.",
         ),
     ]
 }

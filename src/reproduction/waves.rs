@@ -410,7 +410,7 @@ fn one_choice(cases: &[Case]) -> Claim {
     }
     Claim::new(
         ID,
-        "one choice of vehicle, period and fit gives all three growth rates: smallest over the choices of the largest distance",
+        "one choice of vehicle, period and fit gives all three growth rates: largest distance from the three, for the best choice",
         "",
         Expected::AtMost(GROWTH_TOLERANCE),
         Estimate::exact(best.0),
