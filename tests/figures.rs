@@ -1,5 +1,5 @@
-//! The figures of the paper at reduced size: shape and units of their tables, their pictures, and the claims that
-//! must hold whatever the number of runs.
+//! The figures of the paper at small size: shape and units of their tables, their pictures, and the claims that must
+//! hold whatever the number of runs.
 #![cfg(not(target_arch = "wasm32"))]
 
 use ringroad::measurement::provenance::Provenance;
@@ -22,7 +22,7 @@ fn claim<'a>(claims: &'a [Claim], words: &str) -> &'a Claim {
 }
 
 #[test]
-fn tables_have_rows_units_and_a_header_that_tells_what_made_them() {
+fn tables_have_rows_units_and_a_header_that_says_how_they_were_made() {
     for (figure, outcome) in OUTCOMES.iter() {
         assert!(!outcome.tables.is_empty(), "{}", figure.id);
         for table in &outcome.tables {
@@ -70,7 +70,7 @@ fn shapes_are_those_of_the_figures() {
 }
 
 #[test]
-fn pictures_are_well_formed_and_say_what_they_show() {
+fn pictures_are_well_formed_and_described_in_words() {
     for (figure, outcome) in OUTCOMES.iter() {
         let svg = outcome.plot.to_svg();
         assert!(
@@ -93,38 +93,38 @@ fn pictures_are_well_formed_and_say_what_they_show() {
 }
 
 #[test]
-fn pieces_may_be_done_in_any_order_and_cross_as_arrays() {
+fn tasks_may_run_in_any_order_and_their_results_cross_as_arrays() {
     let figure = Figure::named("load-balance").unwrap();
-    let count = figure.pieces(Size::Small).len();
-    let mut pieces: Vec<Option<TaskResult>> = vec![None; count];
+    let count = figure.tasks(Size::Small).len();
+    let mut results: Vec<Option<TaskResult>> = vec![None; count];
     for k in (0..count).rev() {
         let crossed = figure.run(Size::Small, k).flat();
-        pieces[k] = Some(TaskResult::from_flat(&crossed).unwrap());
+        results[k] = Some(TaskResult::from_flat(&crossed).unwrap());
     }
-    let pieces: Vec<TaskResult> = pieces.into_iter().map(Option::unwrap).collect();
-    let again = figure.assemble(Size::Small, &pieces).unwrap();
+    let results: Vec<TaskResult> = results.into_iter().map(Option::unwrap).collect();
+    let again = figure.assemble(Size::Small, &results).unwrap();
     let first = outcome("load-balance");
     assert_eq!(again.plot.to_svg(), first.plot.to_svg());
     assert_eq!(again.tables[0].to_csv(), first.tables[0].to_csv());
 }
 
 #[test]
-fn work_in_slices_gives_the_same_as_work_at_once() {
+fn a_task_in_slices_gives_the_same_as_a_task_at_once() {
     let figure = Figure::named("stability").unwrap();
-    let last = figure.pieces(Size::Small).len() - 1;
-    let mut work = figure.start(Size::Small, last);
+    let last = figure.tasks(Size::Small).len() - 1;
+    let mut task = figure.start(Size::Small, last);
     let mut slices = 0;
-    let piece = loop {
+    let result = loop {
         slices += 1;
-        if let Some(piece) = work.advance(100_000) {
-            break piece;
+        if let Some(result) = task.advance(100_000) {
+            break result;
         }
     };
     assert!(slices > 100, "only {slices} slices");
-    assert_eq!(piece, figure.run(Size::Small, last));
+    assert_eq!(result, figure.run(Size::Small, last));
 }
 
-/// What theory or the text demands, whatever the number of runs.
+/// These follow from theory or from the model, whatever the number of runs.
 #[test]
 fn claims_that_must_hold_do() {
     for (id, words) in [
@@ -148,10 +148,10 @@ fn claims_that_must_hold_do() {
         ("stability", "stable at 0.65 s and unstable at 0.75 s"),
         ("load-balance", "the lanes become balanced"),
         ("load-balance", "lower the rate of balancing"),
-        ("aggressive-driver", "without an aggressive driver nobody"),
+        ("aggressive-driver", "without an aggressive driver there are no"),
         ("aggressive-driver", "lane 1 is faster"),
         ("aggressive-driver", "first rises when it passes"),
-        ("aggressive-driver", "jump of frustration"),
+        ("aggressive-driver", "driver that is passed jumps"),
     ] {
         let claim = claim(&outcome(id).claims, words);
         assert_eq!(claim.verdict(), ClaimVerdict::Agrees, "{} — {}", claim.claim, claim.ours_in_words());
@@ -160,14 +160,14 @@ fn claims_that_must_hold_do() {
 
 /// The formula and the table of the paper itself contradict this number.
 #[test]
-fn a_number_that_contradicts_the_papers_own_formula_is_not_bent_to_agree() {
+fn a_number_that_contradicts_the_papers_own_formula_differs() {
     let claim = claim(&outcome("fundamental-diagram").claims, "at 25 veh/km");
     assert_eq!(claim.verdict(), ClaimVerdict::Differs);
     assert!((claim.ours().value - 2002.6).abs() < 0.1, "{}", claim.ours_in_words());
 }
 
 #[test]
-fn every_row_of_the_specification_is_there() {
+fn every_claim_of_the_specification_is_checked() {
     let all: Vec<&Claim> = OUTCOMES.iter().flat_map(|(_, o)| &o.claims).collect();
     for words in [
         "q*",
@@ -214,15 +214,15 @@ fn every_row_of_the_specification_is_there() {
 #[test]
 fn a_perturbed_value_flips_its_verdict() {
     let figure = Figure::named("load-balance").unwrap();
-    let mut pieces: Vec<TaskResult> =
-        (0..figure.pieces(Size::Small).len()).map(|k| figure.run(Size::Small, k)).collect();
-    let verdict = |pieces: &[TaskResult]| {
-        let outcome = figure.assemble(Size::Small, pieces).unwrap();
+    let mut results: Vec<TaskResult> =
+        (0..figure.tasks(Size::Small).len()).map(|k| figure.run(Size::Small, k)).collect();
+    let verdict = |results: &[TaskResult]| {
+        let outcome = figure.assemble(Size::Small, results).unwrap();
         claim(&outcome.claims, "the lanes become balanced").verdict()
     };
-    assert_eq!(verdict(&pieces), ClaimVerdict::Agrees);
-    for piece in &mut pieces {
-        piece.columns[1].iter_mut().for_each(|imbalance| *imbalance = 20.0);
+    assert_eq!(verdict(&results), ClaimVerdict::Agrees);
+    for result in &mut results {
+        result.columns[1].iter_mut().for_each(|imbalance| *imbalance = 20.0);
     }
-    assert_eq!(verdict(&pieces), ClaimVerdict::Differs);
+    assert_eq!(verdict(&results), ClaimVerdict::Differs);
 }

@@ -1,6 +1,7 @@
-//! (c) Load balance and lane changes: readings and slips at the paper's r and p. Over r and p: `maps.rs`.
+//! Load balance and lane changes: readings of the paper, and plausible slips in its program, at the paper's r and p.
+//! (Over r and p: `maps.rs`.)
 
-use crate::lanes::{Attempt, Gap, Lanes, N, Order, Passes, Reading, Rise};
+use crate::lanes::{Attempt, Clearance, Lanes, N, Order, Passes, Reading, Rise};
 use rayon::prelude::*;
 use ringroad::reproduction::claim::{Estimate, Expected};
 use ringroad::reproduction::{Figure, Size};
@@ -8,15 +9,15 @@ use ringroad::scenario::driver::Driver;
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The numbers of the paper, with the tolerances of the table of claims; a statement is met as a claim is, when the
-/// 95 % interval of our mean meets the tolerance.
+/// The numbers of the paper with the tolerances of the table of claims. A statement is met like a claim: when the 95 %
+/// interval of our mean overlaps the interval of the tolerance.
 pub const AT_30: Expected = Expected::About(5.0, 1.0);
 pub const LATE: Expected = Expected::About(5.0, 1.0);
 pub const FLOW: Expected = Expected::About(1.0, 0.05);
 pub const AGGRESSIVE: Expected = Expected::About(12.0, 0.5);
 pub const CONTROL: Expected = Expected::About(3.0, 0.5);
 
-/// What the runs of a reading give: means over the seeds, with 95 % confidence intervals.
+/// The results of a reading: means over the seeds, with 95 % confidence intervals.
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome {
     /// ΔN at 30 s, and its mean from 30 to 100 s.
@@ -66,7 +67,7 @@ impl Outcome {
     }
 }
 
-/// ΔN at 30 s, its mean and the flow from 30 to 100 s; none after a collision.
+/// ΔN at 30 s, its mean and the flow (veh/s) from 30 to 100 s; `None` after a collision.
 fn load_balance(reading: Reading, seed: u64) -> Option<[f64; 3]> {
     let steps = |seconds: f64| (seconds / reading.dt).round() as usize;
     let mut lanes = Lanes::new(reading, false, seed);
@@ -84,7 +85,7 @@ fn load_balance(reading: Reading, seed: u64) -> Option<[f64; 3]> {
     (!lanes.crashed).then(|| [at_30, late / steps(70.0) as f64, (lanes.passings() - passed) / 70.0])
 }
 
-/// Lane changes in 500 s of the aggressive driver and of the mean of its neighbours; none after a collision.
+/// Lane changes in 500 s of the aggressive driver and of its two neighbours (their mean); `None` after a collision.
 fn lane_changes(reading: Reading, seed: u64) -> Option<[f64; 2]> {
     let mut lanes = Lanes::new(reading, true, seed);
     for _ in 0..(500.0 / reading.dt).round() as usize {
@@ -94,7 +95,7 @@ fn lane_changes(reading: Reading, seed: u64) -> Option<[f64; 2]> {
     (!lanes.crashed).then(|| [f64::from(lanes.changes[0]), control])
 }
 
-/// Both runs, which differ in p: the paper has 0.2 and 0.1.
+/// Runs both experiments with these seeds. They differ in p as in the paper: 0.2 for load balance, 0.1 for lane changes.
 pub fn measure(reading: Reading, seeds: RangeInclusive<u64>) -> Outcome {
     let halved = Reading { p: 0.5 * reading.p, ..reading };
     let balance: Vec<_> = seeds.clone().map(|seed| load_balance(reading, seed)).collect();
@@ -112,7 +113,7 @@ pub fn measure(reading: Reading, seeds: RangeInclusive<u64>) -> Outcome {
     }
 }
 
-/// Many readings, on all cores, with a word on the way every so often.
+/// The results of many readings, on all cores; progress goes to the standard error.
 pub fn all(readings: &[Reading], seeds: &RangeInclusive<u64>) -> Vec<(Reading, Outcome)> {
     let done = AtomicUsize::new(0);
     let one = |&reading: &Reading| {
@@ -126,7 +127,7 @@ pub fn all(readings: &[Reading], seeds: &RangeInclusive<u64>) -> Vec<(Reading, O
     readings.par_iter().map(one).collect()
 }
 
-/// How many readings meet which statements.
+/// Prints how many readings meet which statements.
 pub fn summary(results: &[(Reading, Outcome)]) {
     let count = |f: &dyn Fn(&Outcome) -> bool| results.iter().filter(|r| f(&r.1)).count();
     println!("| statement | readings of {} that meet it |\n|---|---|", results.len());
@@ -141,7 +142,7 @@ pub fn summary(results: &[(Reading, Outcome)]) {
 
 pub const READING: &str = "gap | rise | attempt | passes | order | φ is 0 after | dt";
 
-/// Those that meet at least `least` statements, the first `most` of them.
+/// Prints the readings that meet at least `least` statements, at most `most` of them.
 pub fn those_that_meet(results: &[(Reading, Outcome)], least: u8, most: usize, with_r_and_p: bool) {
     let first = if with_r_and_p { "r | p | " } else { "" };
     let rules = "---|".repeat(if with_r_and_p { 16 } else { 14 });
@@ -174,7 +175,7 @@ pub fn main() {
     those_that_meet(&results, 2, 40, false);
 }
 
-/// Two lanes filled by tossing a coin for every vehicle: ΔN, and the flow at equilibrium in each lane.
+/// Prints ΔN of two lanes filled by tossing a coin for every vehicle, and their flow with each lane in equilibrium.
 fn chance() {
     let driver = Driver::default();
     let flow = |n: usize| driver.flow(n as f64 / 1000.0);
@@ -199,11 +200,11 @@ fn chance() {
 pub const PASSES: [Passes; 5] =
     [Passes::Alongside, Passes::FarSideToo, Passes::Wrapped, Passes::NextChanged, Passes::Never];
 
-/// One thing changed at a time.
+/// The literal reading, then readings with one choice changed.
 pub fn singles(literal: Reading) -> Vec<(String, Reading)> {
     let mut list = vec![("nothing".to_owned(), literal)];
     let mut add = |name: String, reading| list.push((name, reading));
-    add("gap: C instead of d".into(), Reading { gap: Gap::Length, ..literal });
+    add("gap: C instead of d".into(), Reading { clearance: Clearance::Length, ..literal });
     for rise in [Rise::TimesOtherStep, Rise::WholeR] {
         add(format!("φ: {rise:?}"), Reading { rise, ..literal });
     }
@@ -223,17 +224,17 @@ pub fn singles(literal: Reading) -> Vec<(String, Reading)> {
     list
 }
 
-/// Every combination of gap, rise, attempt, passes, order and reset.
+/// Every combination of clearance, rise, attempt, passes, order and reset.
 pub fn combinations(literal: Reading) -> Vec<Reading> {
     let mut readings = Vec::new();
-    for gap in [Gap::MinHeadway, Gap::Length] {
+    for clearance in [Clearance::MinHeadway, Clearance::Length] {
         for rise in [Rise::TimesStep, Rise::TimesOtherStep, Rise::WholeR] {
             for attempt in [Attempt::Rescaled, Attempt::Twice, Attempt::EveryStep] {
                 for passes in PASSES {
                     for order in [Order::InTurn, Order::Together] {
                         for reset_always in [false, true] {
                             readings.push(Reading {
-                                gap,
+                                clearance,
                                 rise,
                                 attempt,
                                 passes,
@@ -250,7 +251,10 @@ pub fn combinations(literal: Reading) -> Vec<Reading> {
     readings
 }
 
-/// The literal reading here and the core give the same, within the noise of their runs.
+/// Prints the literal reading here beside the core.
+///
+/// # Panics
+/// If the two differ by more than the noise of their runs.
 fn agrees_with_the_core(literal: Reading) {
     let here = measure(literal, 1..=200);
     let claims = |id: &str| Figure::named(id).expect("a figure").outcome(Size::Full, &|| {}).claims;

@@ -1,4 +1,4 @@
-//! (a) The times of the collisions at Δ = 0.75 s and 0.8 s against everything that the paper leaves open.
+//! The times of the collisions at Δ = 0.75 s and 0.8 s under every choice that the paper leaves open.
 
 use crate::single::{Past, Reading, Update, collision};
 use rayon::prelude::*;
@@ -8,6 +8,7 @@ use ringroad::simulation::Simulation;
 /// A reading, and its collisions at 0.75 s and at 0.8 s.
 type Collisions = (Reading, (Option<f64>, Option<f64>));
 
+/// The paper to the letter.
 const LITERAL: Reading = Reading {
     displacement: 1.0,
     reaction_time: 0.75,
@@ -16,10 +17,12 @@ const LITERAL: Reading = Reading {
     past: Past::Displaced,
     update: Update::Together,
 };
+/// End of a run without a collision, s.
 const UNTIL: f64 = 600.0;
 /// A round trip of the disturbance, N/c, s.
 const CYCLE: f64 = 68.34;
 
+/// The times of the collisions at 0.75 s and at 0.8 s.
 fn both(reading: Reading) -> (Option<f64>, Option<f64>) {
     let at = |reaction_time| collision(Reading { reaction_time, ..reading }, UNTIL);
     (at(0.75), at(0.8))
@@ -34,6 +37,8 @@ fn row(name: &str, reading: Reading) {
     println!("| {name} | {} | {} |", words(a), words(b));
 }
 
+/// Prints the collisions with one choice changed, the readings that meet the paper's two statements, and a finer search
+/// over the displacement.
 pub fn main() {
     for reaction_time in [0.75, 0.8] {
         let mut scenario = Scenario { until: UNTIL, ..Scenario::default() };

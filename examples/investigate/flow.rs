@@ -1,7 +1,9 @@
-//! (d) The flow of 1668 vehicles an hour at 25 vehicles a kilometre.
+//! The paper's flow of 1668 vehicles an hour at 25 vehicles a kilometre: which change of its values would give it?
 
 use ringroad::scenario::driver::Driver;
 
+/// Prints the flow at several densities, the densities with a flow of 1668, and each value of the paper's table that
+/// would have to change.
 pub fn main() {
     let driver = Driver::default();
     let q = |rho: f64| 3600.0 * driver.flow(rho / 1000.0);

@@ -1,4 +1,4 @@
-//! (b) The cyclic growth rate k against vehicle, kind and number of periods, and fit.
+//! The cyclic growth rate k for every vehicle, definition and number of periods, fit and displacement.
 
 use rayon::prelude::*;
 use ringroad::numerics::least_squares;
@@ -6,11 +6,12 @@ use ringroad::scenario::Scenario;
 use ringroad::scenario::driver::Driver;
 use ringroad::simulation::Simulation;
 
+/// The paper's k, at the reaction times `DELAYS` (s).
 const PAPER: [f64; 3] = [-1.073, -0.790, 0.443];
 const DELAYS: [f64; 3] = [0.0, 0.5, 0.75];
 const N: usize = 50;
 
-/// What a period is.
+/// The definition of a period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Period {
     UpwardCrossings,
@@ -18,7 +19,7 @@ enum Period {
     LocalMinima,
     /// From t = 0.
     RoundTrips,
-    /// From half a round trip before the disturbance comes to the vehicle.
+    /// Each from half a round trip before the disturbance reaches the vehicle to half a round trip after it.
     CentredRoundTrips,
 }
 const PERIODS: [Period; 5] = [
@@ -29,7 +30,7 @@ const PERIODS: [Period; 5] = [
     Period::CentredRoundTrips,
 ];
 
-/// Speeds of all vehicles less v∞, a row a step.
+/// Speeds of all vehicles less v∞ (m/s), a row for each step.
 fn run(delay: f64, displacement: f64) -> Vec<[f64; N]> {
     let mut scenario = Scenario { until: 420.0, ..Scenario::default() };
     scenario.driver.reaction_time = delay;
@@ -48,7 +49,7 @@ fn run(delay: f64, displacement: f64) -> Vec<[f64; N]> {
     }
 }
 
-/// f(n) of a vehicle.
+/// f(n) of a vehicle (from 0), m/s.
 fn depths(rows: &[[f64; N]], vehicle: usize, period: Period) -> Vec<f64> {
     let trip = (N as f64 / Driver::default().slope(20.0) / 0.01).round() as usize;
     let u = |k: usize| rows[k][vehicle];
@@ -68,7 +69,7 @@ fn depths(rows: &[[f64; N]], vehicle: usize, period: Period) -> Vec<f64> {
             .collect(),
         Period::RoundTrips => between(&(0..=rows.len() / trip).map(|n| n * trip).collect::<Vec<_>>()),
         Period::CentredRoundTrips => {
-            // The disturbance goes backwards: vehicle N is next to vehicle 1.
+            // The disturbance travels upstream: it reaches vehicle N first after vehicle 1.
             let arrival = (N - vehicle) % N * trip / N;
             let first = (arrival + trip / 2) % trip;
             let starts: Vec<_> = (first..rows.len()).step_by(trip).collect();
@@ -77,11 +78,16 @@ fn depths(rows: &[[f64; N]], vehicle: usize, period: Period) -> Vec<f64> {
     }
 }
 
+/// One reading of the paper, and its k at the three reaction times.
 struct Reading {
+    /// From 1.
     vehicle: usize,
     period: Period,
+    /// Periods left out at the start.
     skipped: usize,
+    /// Periods fitted.
     periods: usize,
+    /// Whether the fit is a line through the logarithms.
     logarithms: bool,
     displacement: f64,
     rates: [Option<f64>; 3],

@@ -1,6 +1,6 @@
-//! Two lanes without reaction time, with the choices that the paper leaves open, and plausible slips, as
-//! parameters. One order of all vehicles round the ring is kept sorted, so that who is ahead and who passed whom
-//! costs a sweep and not a loop over all pairs.
+//! A simulator of two lanes without reaction time. The choices that the paper leaves open, and plausible slips in its
+//! program, are its parameters. The order of all vehicles along the ring is kept sorted, so that leaders and passes are
+//! found in one sweep instead of a loop over all pairs.
 
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
@@ -13,16 +13,17 @@ const V: f64 = 40.0;
 const D: f64 = 7.5;
 const C: f64 = 5.0;
 
-/// How far from other vehicles of the target lane a change is allowed.
+/// The smallest allowed distance (centre to centre) to a vehicle of the target lane in a lane change. The tables call
+/// it gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Gap {
+pub enum Clearance {
     /// d, as the text says.
     MinHeadway,
     /// C, the length of a vehicle.
     Length,
 }
 
-/// By what a step moves frustration.
+/// The change of frustration in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rise {
     /// r·dt.
@@ -44,30 +45,30 @@ pub enum Attempt {
     EveryStep,
 }
 
-/// What counts as being passed.
+/// The events that count as being passed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Passes {
-    /// A vehicle of the other lane comes past, alongside.
+    /// A vehicle of the other lane passes.
     Alongside,
-    /// Also at the far side of the ring, where the shorter way round changes its sign.
+    /// The same, and also half a ring away, where the shorter way along the ring changes its sign.
     FarSideToo,
-    /// Positions compared as numbers from 0 to L: whoever crosses the origin is passed by all the other lane, and passes
-    /// nobody.
+    /// Positions are compared as numbers from 0 to L: a vehicle that crosses the origin is passed by the whole other
+    /// lane and passes no vehicle itself.
     Wrapped,
-    /// The vehicle next ahead in the other lane is another one than before.
+    /// The adjacent leader is another vehicle than before.
     NextChanged,
     /// No pass counts.
     Never,
 }
 
-/// In which order vehicles change lanes.
+/// The order in which vehicles change lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Order {
     /// By number, each change at once.
     InTurn,
     /// By number, backwards.
     Backwards,
-    /// All decide on the same scene, and all that may, change.
+    /// All decide from the same state; then all that may change do so together.
     Together,
 }
 
@@ -77,7 +78,7 @@ pub struct Reading {
     pub r: f64,
     pub p: f64,
     pub dt: f64,
-    pub gap: Gap,
+    pub clearance: Clearance,
     pub rise: Rise,
     pub attempt: Attempt,
     pub passes: Passes,
@@ -87,13 +88,13 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The text, to the letter.
+    /// The paper to the letter.
     pub fn literal(r: f64, p: f64) -> Self {
         Self {
             r,
             p,
             dt: 0.05,
-            gap: Gap::MinHeadway,
+            clearance: Clearance::MinHeadway,
             rise: Rise::TimesStep,
             attempt: Attempt::Rescaled,
             passes: Passes::Alongside,
@@ -109,7 +110,7 @@ impl fmt::Display for Reading {
         write!(
             f,
             "{:?} | {:?} | {:?} | {:?} | {:?} | {reset} | {} s",
-            self.gap, self.rise, self.attempt, self.passes, self.order, self.dt
+            self.clearance, self.rise, self.attempt, self.passes, self.order, self.dt
         )
     }
 }
@@ -117,20 +118,20 @@ impl fmt::Display for Reading {
 /// All vehicles in the order of their positions modulo a period.
 struct Cycle {
     period: f64,
-    ring: [usize; N],
-    /// Positions, up to whole periods such that they rise along `ring` and span less than a period.
+    order: [usize; N],
+    /// Positions, shifted by whole periods so that they rise along `order` and span less than a period.
     key: [f64; N],
 }
 
 impl Cycle {
     fn new(x: &[f64; N], period: f64) -> Self {
         let key = x.map(|x| x.rem_euclid(period));
-        let mut ring: [usize; N] = std::array::from_fn(|j| j);
-        ring.sort_by(|&a, &b| key[a].total_cmp(&key[b]));
-        Self { period, ring, key }
+        let mut order: [usize; N] = std::array::from_fn(|j| j);
+        order.sort_by(|&a, &b| key[a].total_cmp(&key[b]));
+        Self { period, order, key }
     }
 
-    /// Moves every vehicle and sorts again; adds who has come past whom.
+    /// Moves every vehicle by its way (m) and sorts again; appends (passer, passed) for every pass.
     fn advance(&mut self, way: &[f64; N], passes: &mut Vec<(usize, usize)>) {
         for (key, way) in self.key.iter_mut().zip(way) {
             *key += way;
@@ -138,48 +139,48 @@ impl Cycle {
         loop {
             for end in 1..N {
                 let mut k = end;
-                while k > 0 && self.key[self.ring[k - 1]] > self.key[self.ring[k]] {
-                    passes.push((self.ring[k - 1], self.ring[k]));
-                    self.ring.swap(k - 1, k);
+                while k > 0 && self.key[self.order[k - 1]] > self.key[self.order[k]] {
+                    passes.push((self.order[k - 1], self.order[k]));
+                    self.order.swap(k - 1, k);
                     k -= 1;
                 }
             }
-            // The last may have come past the first, a period on.
-            let (first, last) = (self.ring[0], self.ring[N - 1]);
+            // The last may have passed the first, which is one period ahead of it.
+            let (first, last) = (self.order[0], self.order[N - 1]);
             if self.key[last] <= self.key[first] + self.period {
                 return;
             }
             passes.push((last, first));
             self.key[last] -= self.period;
             self.key[first] += self.period;
-            self.ring.swap(0, N - 1);
+            self.order.swap(0, N - 1);
         }
     }
 }
 
-/// The state.
+/// The state of both lanes.
 pub struct Lanes {
     reading: Reading,
     generator: ChaCha8Rng,
     /// Unwrapped positions.
     x: [f64; N],
-    /// Positions in [0, L), now and a step ago, and whether anyone has come past 0 in between.
+    /// Positions in [0, L), now and a step ago, and whether a vehicle has crossed 0 in between.
     wrapped: [f64; N],
     before: [f64; N],
     over_origin: bool,
     cycle: Cycle,
-    /// Modulo half the ring: there, who is passed at the far side is passed as well.
+    /// The order modulo half the ring, in which a vehicle half a ring away is adjacent as well.
     half: Option<Cycle>,
-    /// Who came past whom in the step before, whatever the lanes.
+    /// (passer, passed) of the step before, in whichever lanes.
     passed: Vec<(usize, usize)>,
     lane: [usize; N],
-    /// The vehicle next ahead in each lane and its distance; none: infinity.
+    /// The next vehicle ahead in each lane and its headway (m); infinite where there is none.
     next: [[usize; N]; 2],
-    gap: [[f64; N]; 2],
+    headway: [[f64; N]; 2],
     sensitivity: [f64; N],
     frustration: [f64; N],
     pub changes: [u32; N],
-    next_beside: [usize; N],
+    adjacent_leader: [usize; N],
     pub crashed: bool,
     first: bool,
 }
@@ -212,44 +213,46 @@ impl Lanes {
             passed: Vec::new(),
             lane,
             next: [[usize::MAX; N]; 2],
-            gap: [[f64::INFINITY; N]; 2],
+            headway: [[f64::INFINITY; N]; 2],
             sensitivity,
             frustration: [0.0; N],
             changes: [0; N],
-            next_beside: [usize::MAX; N],
+            adjacent_leader: [usize::MAX; N],
             crashed: false,
             first: true,
         };
-        lanes.look();
+        lanes.find_leaders();
         lanes
     }
 
-    /// Finds the vehicles next ahead: backwards round the ring, from the first of each lane a lap ahead.
-    fn look(&mut self) {
-        let Cycle { ring, key, .. } = &self.cycle;
+    /// Finds the leaders in both lanes: upstream along the ring, starting with the first vehicle of each lane, shifted by
+    /// one period.
+    fn find_leaders(&mut self) {
+        let Cycle { order, key, .. } = &self.cycle;
         let mut ahead = [(usize::MAX, f64::INFINITY); 2];
         for (lane, ahead) in ahead.iter_mut().enumerate() {
-            if let Some(&j) = ring.iter().find(|&&j| self.lane[j] == lane) {
+            if let Some(&j) = order.iter().find(|&&j| self.lane[j] == lane) {
                 *ahead = (j, key[j] + L);
             }
         }
-        for &j in ring.iter().rev() {
+        for &j in order.iter().rev() {
             for (lane, ahead) in ahead.iter().enumerate() {
                 self.next[lane][j] = ahead.0;
-                self.gap[lane][j] = ahead.1 - key[j];
+                self.headway[lane][j] = ahead.1 - key[j];
             }
             ahead[self.lane[j]] = (j, key[j]);
         }
     }
 
+    /// Number of passes of vehicle j in the step before.
     fn passes(&mut self, j: usize) -> f64 {
         let other = 1 - self.lane[j];
         match self.reading.passes {
             Passes::Never => 0.0,
             Passes::NextChanged => {
                 let next = self.next[other][j];
-                let changed = !self.first && next != self.next_beside[j];
-                self.next_beside[j] = next;
+                let changed = !self.first && next != self.adjacent_leader[j];
+                self.adjacent_leader[j] = next;
                 f64::from(u8::from(changed))
             }
             Passes::Wrapped if self.over_origin => {
@@ -266,20 +269,21 @@ impl Lanes {
         }
     }
 
+    /// Whether vehicle j may change to a lane.
     fn is_free(&self, j: usize, lane: usize) -> bool {
-        let gap = if self.reading.gap == Gap::MinHeadway { D } else { C };
+        let clearance = if self.reading.clearance == Clearance::MinHeadway { D } else { C };
         (0..N).all(|i| {
             self.lane[i] != lane || {
                 let g = (self.wrapped[i] - self.wrapped[j]).abs();
-                g.min(L - g) > gap
+                g.min(L - g) > clearance
             }
         })
     }
 
-    /// Whether an attempt is made in this step, by a number uniform in [0, 1).
+    /// Whether an attempt is made in this step; `uniform` is a random number in [0, 1).
     fn attempts(&self, frustration: f64, uniform: f64) -> bool {
         let dt = self.reading.dt;
-        // −ln(1 − P) < 0.75 φ, which spares most of the costly formulas.
+        // Since −ln(1 − P) < 0.75 φ, most attempts can be ruled out without the costly formulas.
         let bound = if self.reading.attempt == Attempt::EveryStep { 1.0 } else { dt };
         if uniform >= 0.75 * frustration * bound {
             return false;
@@ -306,9 +310,10 @@ impl Lanes {
         for k in 0..N {
             let j = if order == Order::Backwards { N - 1 - k } else { k };
             let other = 1 - self.lane[j];
-            let (own, beside) = (self.gap[1 - other][j], self.gap[other][j]);
+            let (own, adjacent) = (self.headway[1 - other][j], self.headway[other][j]);
             let mut frustration = self.frustration[j];
-            frustration += if own < beside { change } else { 0.0 } - if own > beside { change } else { 0.0 };
+            frustration +=
+                if own < adjacent { change } else { 0.0 } - if own > adjacent { change } else { 0.0 };
             frustration = frustration.max(0.0) + p * self.passes(j);
             self.frustration[j] = frustration;
             let uniform = (self.generator.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0;
@@ -324,7 +329,7 @@ impl Lanes {
             self.change(j);
         }
         self.first = false;
-        let headways: [f64; N] = std::array::from_fn(|j| self.gap[self.lane[j]][j]);
+        let headways: [f64; N] = std::array::from_fn(|j| self.headway[self.lane[j]][j]);
         if headways.iter().any(|&h| h <= C) {
             self.crashed = true;
             return;
@@ -349,15 +354,15 @@ impl Lanes {
             self.passed.clear();
             half.advance(&way, &mut self.passed);
         }
-        self.look();
+        self.find_leaders();
     }
 
     fn change(&mut self, j: usize) {
         self.lane[j] = 1 - self.lane[j];
         self.frustration[j] = 0.0;
         self.changes[j] += 1;
-        self.look();
-        self.next_beside[j] = self.next[1 - self.lane[j]][j];
+        self.find_leaders();
+        self.adjacent_leader[j] = self.next[1 - self.lane[j]][j];
     }
 
     pub fn imbalance(&self) -> f64 {
@@ -365,7 +370,7 @@ impl Lanes {
         (2.0 * outer - N as f64).abs()
     }
 
-    /// Vehicles that have come past the middle of the ring since ever.
+    /// Number of times that a vehicle has passed the middle of the ring, plus a constant.
     pub fn passings(&self) -> f64 {
         self.x.iter().map(|x| ((x - L / 2.0) / L).floor()).sum()
     }

@@ -1,11 +1,11 @@
-//! Where the paper and Ringroad differ: which readings of the paper would give its numbers?
+//! Where the numbers of the paper and of Ringroad differ: which readings of the paper would give its numbers?
 //!
 //! `cargo run --release --example investigate -- crash|growth|balance|maps|search|flow` prints the tables of
-//! `docs/reproduction.md`; `maps` writes its pictures and their numbers into `docs/reproduction/`, or into a folder
-//! that is named. The readings are variants of the model, so they live here, in small simulators of their own, and
-//! not in the core; the literal variant is held against the core first.
+//! `docs/reproduction.md`; `maps` also writes its pictures and their numbers into `docs/reproduction/`, or into the
+//! folder of its argument. The readings are variants of the model, so they are in small simulators here and not in the
+//! core. The variant that follows the paper to the letter is compared with the core first.
 
-#![allow(clippy::disallowed_methods)] // nothing here must have the same bits everywhere
+#![allow(clippy::disallowed_methods)] // these numbers need not have the same bits on every machine
 
 mod balance;
 mod crash;

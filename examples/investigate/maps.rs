@@ -1,4 +1,4 @@
-//! (c) Load balance and lane changes over r and p: a map for each reading, and a search over all combinations.
+//! Load balance and lane changes over r and p: a map for each reading, and a search over all combinations.
 
 use crate::balance::{
     AGGRESSIVE, AT_30, CONTROL, FLOW, HEADER, LATE, Outcome, all, combinations, singles, summary,
@@ -11,11 +11,12 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-/// r: eighths of a power of ten about the paper's 0.1 /s, seven of them from 0.01 to 0.056; p: quarters about 0.2.
+/// Values of r (1/s): the paper's 0.1 times 10^(k/8) for k from −10 to 2; of p: 0.2 times 10^(k/4) for k from −5 to 3.
 const RATES: (f64, f64, i32, i32) = (0.1, 8.0, -10, 2);
 const SHARES: (f64, f64, i32, i32) = (0.2, 4.0, -5, 3);
 const SEEDS: std::ops::RangeInclusive<u64> = 1..=20;
 
+/// The values of such a list.
 fn values((middle, parts, low, high): (f64, f64, i32, i32)) -> Vec<f64> {
     (low..=high).map(|k| middle * 10.0_f64.powf(f64::from(k) / parts)).collect()
 }
@@ -26,7 +27,8 @@ fn ends((middle, parts, low, high): (f64, f64, i32, i32)) -> (f64, f64) {
     (at(f64::from(low) - 0.5), at(f64::from(high) + 0.5))
 }
 
-/// What is mapped: name of the file, title, the paper's number, how far the colours reach on both sides of it.
+/// A quantity that is mapped: name of the file, title, the paper's number, half the range of the colours about it, and
+/// the value.
 type Quantity = (&'static str, &'static str, Expected, f64, fn(&Outcome) -> Estimate);
 const QUANTITIES: [Quantity; 5] = [
     ("imbalance-30", "ΔN at 30 s", AT_30, 4.0, |o| o.at_30),
@@ -41,7 +43,7 @@ const QUANTITIES: [Quantity; 5] = [
 pub fn main(folder: &Path) {
     fs::create_dir_all(folder).expect("a folder to write to");
     let (rates, shares) = (values(RATES), values(SHARES));
-    // A step of 0.25 s gives what 0.1 and 0.5 s give.
+    // Steps of 0.25 s give the same as steps of 0.1 and 0.5 s.
     let readings: Vec<(String, Reading)> =
         singles(Reading::literal(0.1, 0.2)).into_iter().filter(|s| s.1.dt != 0.25).collect();
     let points: Vec<Reading> = readings
@@ -108,6 +110,7 @@ fn farthest(outcome: &Outcome) -> f64 {
     QUANTITIES.iter().map(distance).fold(0.0, f64::max)
 }
 
+/// A map for each reading.
 fn picture((id, title, expected, reach, _): &Quantity, maps: &[(&str, Vec<f64>)]) -> Plot {
     let &Expected::About(paper, _) = expected else { unreachable!("numbers only") };
     let panel = |(name, values): &(&str, Vec<f64>)| Panel {
@@ -142,7 +145,7 @@ fn values_along((_, _, low, high): (f64, f64, i32, i32)) -> usize {
     (high - low + 1) as usize
 }
 
-/// Every mean with the half-width of its 95 % interval.
+/// All means with the half-widths of their 95 % intervals, as CSV.
 fn csv(readings: &[(String, Reading)], results: &[(Reading, Outcome)]) -> String {
     let mut out = format!(
         "# means over seeds 1 to {}, each with the half-width of its 95 % confidence interval (half_…); lane changes at p/2\n",
@@ -167,7 +170,7 @@ fn csv(readings: &[(String, Reading)], results: &[(Reading, Outcome)]) -> String
     out
 }
 
-/// Shows those that meet all three statements, and what they give in many other runs.
+/// Prints the readings that meet all three statements, and their results in many other runs.
 fn again(title: &str, results: &[(Reading, Outcome)]) {
     println!("\n{title}:\n");
     those_that_meet(results, 3, usize::MAX, true);
@@ -176,7 +179,8 @@ fn again(title: &str, results: &[(Reading, Outcome)]) {
     those_that_meet(&all(&again, &(1001..=1200)), 0, usize::MAX, true);
 }
 
-/// Every combination at some pairs of r and p, with few runs; then those that met all three, with many other runs.
+/// Tries every combination at some pairs of r and p with few runs; then repeats those that meet all three statements with
+/// many other runs.
 pub fn search() {
     let (rates, shares) = ([0.018, 0.032, 0.056, 0.1], [0.06, 0.2, 0.6]);
     let literal = Reading::literal(0.1, 0.2);

@@ -1,4 +1,4 @@
-//! A single lane of 50 vehicles, with the choices that the paper leaves open as parameters.
+//! A simulator of a single lane of 50 vehicles; the choices that the paper leaves open are its parameters.
 
 use std::fmt;
 
@@ -8,14 +8,15 @@ const V: f64 = 40.0;
 const D: f64 = 7.5;
 const C: f64 = 5.0;
 
-/// What drivers see before t = 0.
+/// The headways that drivers perceive before t = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Past {
-    /// The displaced scene, for ever. (A past in which all drove at v∞ gives the same headways, and so the same run.)
+    /// Those after the displacement, at all times before 0. (A past in which all vehicles moved at v∞ has the same
+    /// headways and so gives the same run.)
     Displaced,
     /// The equal headways before the displacement.
     Equal,
-    /// No delay until Δ has passed, then all of it.
+    /// None: there is no delay until Δ has passed, then the whole delay.
     NoDelayYet,
 }
 
@@ -24,20 +25,23 @@ pub enum Past {
 pub enum Update {
     /// All speeds first, then all positions.
     Together,
-    /// One vehicle after another, in order of number: vehicle N sees its leader, vehicle 1, moved already, and so a
-    /// scene one step younger.
+    /// One vehicle after another, in order of number. Vehicle 1, the leader of vehicle N, has moved before vehicle N
+    /// does; so vehicle N perceives its headway of one step later.
     InTurn,
-    /// All speeds first, from the scene one step later than asked for.
+    /// All speeds first, from headways one step older than the delay says.
     OneStepLate,
 }
 
+/// One reading of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
+    /// Displacement of vehicle 1 at t = 0, m.
     pub displacement: f64,
     /// Δ, s.
     pub reaction_time: f64,
     /// Steps added to round(Δ/dt).
     pub extra_steps: i64,
+    /// Time step, s.
     pub dt: f64,
     pub past: Past,
     pub update: Update,
@@ -53,17 +57,18 @@ impl fmt::Display for Reading {
     }
 }
 
+/// The speed law of the paper at a headway (m), m/s.
 fn speed(h: f64) -> f64 {
     (V - V * (-(1.0 / V) * (h - D)).exp()).max(0.0)
 }
 
-/// Time of the collision, s; none before `until`.
+/// Time of the collision, s; `None` where there is none before `until`.
 pub fn collision(reading: Reading, until: f64) -> Option<f64> {
     let Reading { displacement, reaction_time, extra_steps, dt, past, update } = reading;
     let delay = ((reaction_time / dt).round() as i64 + extra_steps).max(0) as usize;
     let late = usize::from(update == Update::OneStepLate);
     let rows = delay + late + 2;
-    // Headways, not positions, so that rounding stays small.
+    // Headways instead of positions, so that rounding errors stay small. The rows are reused in turn.
     let mut history = vec![[L / N as f64; N]; rows];
     let displaced = |h: &mut [f64; N]| {
         h[0] -= displacement;
@@ -81,13 +86,13 @@ pub fn collision(reading: Reading, until: f64) -> Option<f64> {
             return Some(step as f64 * dt);
         }
         let back = if past == Past::NoDelayYet && step < delay { 0 } else { delay + late };
-        let seen = history[(now + rows - back) % rows];
-        let younger = history[(now + rows - back.saturating_sub(1)) % rows];
+        let perceived = history[(now + rows - back) % rows];
+        let later = history[(now + rows - back.saturating_sub(1)) % rows];
         let mut v = [0.0; N];
         for j in 0..N {
-            // In turn: the leader of the last vehicle, vehicle 1, has been moved already.
-            let scene = if update == Update::InTurn && j == N - 1 { younger[j] } else { seen[j] };
-            v[j] = speed(scene);
+            // In turn: vehicle 1, the leader of the last vehicle, has moved already.
+            let headway = if update == Update::InTurn && j == N - 1 { later[j] } else { perceived[j] };
+            v[j] = speed(headway);
         }
         let mut next = history[now];
         for j in 0..N {

@@ -44,7 +44,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         fs::create_dir_all(name).map_err(|error| Failure::File { name: name.clone(), error })?;
     }
     let size = if matches.get_flag("small") { Size::Small } else { Size::Full };
-    let bar = progress::bar(figures.iter().map(|f| f.pieces(size).len() as u64).sum());
+    let bar = progress::bar(figures.iter().map(|f| f.tasks(size).len() as u64).sum());
     let mut claims: Vec<Claim> = Vec::new();
     for figure in figures {
         let outcome = figure.outcome(size, &|| bar.inc(1));

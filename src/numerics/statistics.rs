@@ -32,9 +32,7 @@ impl Statistics {
         let mut values: Vec<f64> = values.into_iter().filter(|v| !v.is_nan()).collect();
         let count = values.len();
         let n = count as f64;
-        // Seen from one of them, equal values deviate by nothing.
-        let origin = values.first().copied().unwrap_or(f64::NAN);
-        let mean = origin + values.iter().map(|v| v - origin).sum::<f64>() / n;
+        let mean = mean(&values);
         let squares: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
         let deviation = if count > 1 { (squares / (n - 1.0)).sqrt() } else { f64::NAN };
         values.sort_unstable_by(f64::total_cmp);
@@ -64,6 +62,13 @@ impl Statistics {
         statistics.interval = [low(p), 1.0 - low(1.0 - p)];
         statistics
     }
+}
+
+/// The mean of the values; NaN without values or where one is NaN. It is computed as a difference from the first
+/// value, so that the mean of equal values is exactly that value.
+pub fn mean(values: &[f64]) -> f64 {
+    let origin = values.first().copied().unwrap_or(f64::NAN);
+    origin + values.iter().map(|v| v - origin).sum::<f64>() / values.len() as f64
 }
 
 /// Quantile `p` of ascending values, by linear interpolation between the order statistics at (n − 1)·p: type 7 of

@@ -1,30 +1,38 @@
-//! Colour of a number on the ring and in the space-time map.
+//! The colour of a number, for vehicles on the ring, for space-time maps and for maps in pictures.
 //!
-//! Speed is shown as its difference from equilibrium on a *signed logarithmic* scale,
-//! `u = sign(δv)·ln(1 + |δv|/ε)/ln(1 + δv_max/ε)`: on a linear scale of 0–20 m/s a wave that starts at a centimetre
-//! per second stays invisible for minutes, on this one it can be seen to fade or grow from the first second.
-//! Blue against amber, and cividis (Nuñez, Anderton & Renslow, PLoS ONE 13, 2018) for absolute values, are safe
-//! for colour-blind eyes.
+//! Speed is shown as its difference from the equilibrium speed, δv, on a *signed logarithmic* scale,
+//! `u = sign(δv)·ln(1 + |δv|/ε)/ln(1 + δv_max/ε)`. On a linear scale of 0–20 m/s a wave that starts at a centimetre
+//! per second is invisible for minutes; on this scale its growth or decay is visible from the first second.
+//! Blue against amber, and cividis (Nuñez, Anderton & Renslow, PLoS ONE 13, 2018) for absolute values, can be told
+//! apart by colour-blind readers.
+//!
+//! ```
+//! use ringroad::plot::colour::{Ground, Quantity, Scale};
+//!
+//! let scale = Scale::new(Quantity::Difference, Ground::Light, 10.74);
+//! let [red, _, blue] = scale.colour(-1.0);
+//! assert!(blue > red, "slower than equilibrium is blue");
+//! ```
 
 #![allow(clippy::unreadable_literal)] // colours: red, green and blue, two hexadecimal digits each
 
-/// ε, m/s: where the scale turns from linear to logarithmic.
+/// ε, m/s: the scale is nearly linear below it and logarithmic above.
 pub const SMALLEST: f64 = 0.01;
-/// δv_max, m/s: the ends of the scale.
+/// δv_max, m/s: the scale ends at ±δv_max; larger differences have the colour of the ends.
 pub const LARGEST: f64 = 10.0;
 
-/// What colour stands for.
+/// What a colour stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Difference from the equilibrium speed, m/s, signed logarithmic.
     Difference,
     /// Speed, m/s, linear from 0.
     Speed,
-    /// Frustration φ, by the probability of an attempt within a second, (2/π)·arctan φ.
+    /// Frustration φ, linear in the probability of an attempt within a second, (2/π)·arctan φ.
     Frustration,
 }
 
-/// The page behind the colours; near zero the difference has the colour of the page.
+/// The background of the page. A difference of zero has its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ground {
     /// A light page.
@@ -36,7 +44,7 @@ pub enum Ground {
 /// An opaque colour: red, green, blue.
 pub type Rgb = [u8; 3];
 
-/// The signed logarithmic scale, −1 … 1 for a difference of speed (m/s).
+/// The place of a difference of speed (m/s) on the signed logarithmic scale, −1 … 1.
 pub fn signed_logarithmic(difference: f64) -> f64 {
     let u = libm::log1p(difference.abs() / SMALLEST) / libm::log1p(LARGEST / SMALLEST);
     u.min(1.0).copysign(difference)
@@ -48,7 +56,7 @@ pub struct Scale {
     quantity: Quantity,
     /// The speed at the top of the linear scale, m/s.
     top: f64,
-    /// Colours at equal distances over the scale, fine enough that neighbours cannot be told apart.
+    /// Colours at equal distances over the scale, so many that neighbours look the same.
     colours: Vec<Rgb>,
 }
 
@@ -64,6 +72,7 @@ const CIVIDIS: &[u32] =
 const FRUSTRATION_LIGHT: &[u32] = &[0xd5d9de, 0xd9a3a0, 0xc95a5c, 0x9e1b32, 0x570a24];
 const FRUSTRATION_DARK: &[u32] = &[0x3a4049, 0x793b42, 0xbd4c4f, 0xf07c6a, 0xffd2b8];
 
+/// Colours at equal distances over the scale of a quantity, 0xRRGGBB.
 fn stops(quantity: Quantity, ground: Ground) -> &'static [u32] {
     match (quantity, ground) {
         (Quantity::Difference, Ground::Light) => DIFFERENCE_LIGHT,
@@ -74,6 +83,7 @@ fn stops(quantity: Quantity, ground: Ground) -> &'static [u32] {
     }
 }
 
+/// The colour at a place, 0 … 1, by linear interpolation of each channel.
 fn between(stops: &[u32], place: f64) -> Rgb {
     let x = place * (stops.len() - 1) as f64;
     let k = (x as usize).min(stops.len() - 2);
@@ -90,13 +100,13 @@ impl Scale {
     pub fn new(quantity: Quantity, ground: Ground, equilibrium: f64) -> Self {
         let stops = stops(quantity, ground);
         let colours = (0..ENTRIES).map(|i| between(stops, i as f64 / (ENTRIES - 1) as f64)).collect();
-        // Twice the equilibrium speed, rounded up to a number that people read.
+        // Twice the equilibrium speed, rounded up to a multiple of 5 m/s.
         let top = (equilibrium * 2.0 / 5.0).ceil().max(1.0) * 5.0;
         Self { quantity, top, colours }
     }
 
-    /// Where a value lies on the scale, 0 … 1. `value` is a difference, a speed or a frustration, as the quantity
-    /// says.
+    /// The place of a value on the scale, 0 … 1. `value` is a difference of speed, a speed or a frustration, according
+    /// to the quantity of the scale.
     pub fn place(&self, value: f64) -> f64 {
         let place = match self.quantity {
             Quantity::Difference => 0.5 + 0.5 * signed_logarithmic(value),

@@ -1,10 +1,13 @@
-//! One aggressive driver among fifty: what it gains, and what it does to the others.
+//! One aggressive driver among fifty: its gain, and its effect on the others.
 
-use super::{Figure, FigureTable, Outcome, Size, Spread, TaskResult, indicator, observed};
+use super::claim::{Claim, Estimate, Expected};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{Spread, indicator, observed};
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::probe::Probe;
+use crate::numerics::statistics::mean;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, mean};
 use crate::scenario::{Scenario, Start};
 use crate::simulation::{Event, Simulation};
 
@@ -18,13 +21,14 @@ pub(super) const FIGURE: Figure = Figure {
               vehicle 27 ahead and vehicle 26 behind. 20 runs with seeds 1 to 20; mean, and standard deviation as a \
               band.",
     beyond: false,
-    pieces,
-    start: |size, piece| Box::new(move || run(size, piece)),
+    tasks,
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
 /// Vehicle 1 and its nearest neighbours in lane 2, ahead and behind; indices from 0.
 const FOLLOWED: [usize; 3] = [0, 26, 25];
+/// Time between two rows of the table, s.
 const EVERY: f64 = 5.0;
 
 fn runs(size: Size) -> usize {
@@ -35,7 +39,7 @@ fn until(size: Size) -> f64 {
     size.choose(500.0, 200.0)
 }
 
-fn pieces(size: Size) -> Vec<String> {
+fn tasks(size: Size) -> Vec<String> {
     let each = (1..=runs(size)).map(|seed| format!("run {seed}"));
     each.chain(["without the aggressive driver".to_owned()]).collect()
 }
@@ -51,36 +55,41 @@ fn scenario(size: Size, aggressive: bool, seed: u64) -> Scenario {
         ..Scenario::default()
     };
     if aggressive {
-        scenario.exceptions.push("1:sensitivity=2".parse().expect("the grammar of exceptions"));
+        scenario.exceptions.push("1:sensitivity=2".parse().expect("the grammar of driver overrides"));
     }
     scenario
 }
 
-/// Everything that the figure and its claims need of a run.
+/// What the figure and its claims need of a run.
 #[derive(Clone, Debug, Default)]
 struct Log {
+    /// Times of the rows, s.
     times: Vec<f64>,
-    /// Lane changes and distances of the vehicles followed.
+    /// Lane changes and distances (m) of the vehicles [`FOLLOWED`], row by row.
     changes: [Vec<f64>; 3],
     distances: [Vec<f64>; 3],
-    /// Mean speeds of the control drivers by lane, up to the first lane change: sums over states.
+    /// Mean speed of the drivers with λ = 1 in each lane, summed over the states before the first lane change, m/s.
     lane_speed: [f64; 2],
+    /// Number of these states.
     states: f64,
-    /// Lane changes after which the headway is larger, and all.
+    /// Number of lane changes after which the headway is larger, and of all lane changes.
     enlarged: f64,
     changed: f64,
-    /// When the frustration of vehicle 1 first rose; whether it passed another in the same step; by how much the
-    /// frustration of the passed rose.
+    /// Time at which the frustration of vehicle 1 first rose or vehicle 1 first passed another, s; whether both happened
+    /// in the same step; rise of the frustration of the passed vehicle.
     first_rise: Option<(f64, bool, f64)>,
+    /// Headway (m) and frustration of every vehicle in the state before.
     headways: Vec<f64>,
     frustration: Vec<f64>,
+    /// Lane changes and distance (m) of every vehicle at the end.
     last_changes: Vec<f64>,
     last_distances: Vec<f64>,
 }
 
-/// The probe that keeps it.
+/// The probe that fills the log.
 struct Follow {
     log: Log,
+    /// Steps between two rows.
     every: u64,
     lane_changes: u64,
 }
@@ -94,7 +103,7 @@ impl Probe for Follow {
                 Event::LaneChange { vehicle, .. } => {
                     self.lane_changes += 1;
                     log.changed += 1.0;
-                    // Between two states lies one step of driving as well, 5 cm at a difference of 1 m/s.
+                    // The vehicles also moved for one step between the two states: 5 cm at a difference of 1 m/s.
                     log.enlarged += f64::from(u8::from(simulation.headway(vehicle) > log.headways[vehicle]));
                 }
                 Event::Pass { passer: 0, passed } if log.first_rise.is_none() => {
@@ -104,7 +113,7 @@ impl Probe for Follow {
                 _ => {}
             }
         }
-        // The first rise is that of a pass if the frustration of vehicle 1 was 0 until then and is not after it.
+        // The first rise comes from a pass if the frustration of vehicle 1 leaves 0 in the step of that pass.
         let before = log.frustration.first().copied().unwrap_or(0.0);
         let now = simulation.frustration(0);
         if before == 0.0 && now > 0.0 && !log.headways.is_empty() {
@@ -160,9 +169,10 @@ impl Probe for Follow {
     }
 }
 
-fn run(size: Size, piece: usize) -> TaskResult {
-    let aggressive = piece < runs(size);
-    let scenario = scenario(size, aggressive, if aggressive { piece as u64 + 1 } else { 1 });
+/// Columns: times; lane changes of the three vehicles; their distances; and those that the constants below name.
+fn run(size: Size, task: usize) -> TaskResult {
+    let aggressive = task < runs(size);
+    let scenario = scenario(size, aggressive, if aggressive { task as u64 + 1 } else { 1 });
     let mut follow = Follow { log: Log::default(), every: scenario.steps(EVERY), lane_changes: 0 };
     let simulation = observed(&scenario, &mut follow);
     let log = follow.log;
@@ -184,15 +194,16 @@ fn run(size: Size, piece: usize) -> TaskResult {
     TaskResult { columns }
 }
 
-/// Places of the columns of a piece.
+/// Indices of columns in a task result. The column FACTS holds: difference of the lanes' speeds, lane changes that enlarge
+/// the headway, all lane changes, the three parts of the first rise, whether there was a collision.
 const CHANGES: usize = 1;
 const DISTANCES: usize = 4;
 const FACTS: usize = 7;
 const LAST_CHANGES: usize = 8;
 const LAST_DISTANCES: usize = 9;
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
-    let (runs, alone) = pieces.split_at(runs(size));
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
+    let (runs, alone) = results.split_at(runs(size));
     let time = runs[0].columns[0].clone();
     let spread = |k: usize| Spread::of(&runs.iter().map(|p| p.columns[k].as_slice()).collect::<Vec<_>>());
     let names = ["aggressive", "control_ahead", "control_behind"];
@@ -246,134 +257,210 @@ fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     Outcome { tables, plot, claims: claims(size, runs, &alone[0]) }
 }
 
-fn claims(size: Size, runs: &[TaskResult], alone: &TaskResult) -> Vec<Claim> {
-    let until = until(size);
-    let last = |piece: &TaskResult, k: usize| *piece.columns[k].last().expect("a row at the end");
-    let over = |f: &dyn Fn(&TaskResult) -> f64| Estimate::mean(&runs.iter().map(f).collect::<Vec<_>>());
-    let fact = |k: usize| over(&|p: &TaskResult| p.columns[FACTS][k]);
-    let seeds = format!("{} runs, seeds 1 to {0}, 95 % interval.", runs.len());
-    let claim = |text: &str, unit, expected, ours, how: &str| {
-        Claim::new(ID, text, unit, expected, ours, format!("{how} {seeds}").trim().to_owned())
-    };
-    let changes = |k: usize| over(&|p: &TaskResult| last(p, CHANGES + k));
-    // Of a control driver: the mean of the two neighbours, which halves the noise; both are told.
-    let control = |p: &TaskResult, first: usize| 0.5 * (last(p, first + 1) + last(p, first + 2));
-    let both = |of: &dyn Fn(usize) -> Estimate| {
-        format!("Mean of both neighbours in lane 2: ahead {}, behind {}.", of(1), of(2))
-    };
-    let control_changes = over(&|p: &TaskResult| control(p, CHANGES));
-    let ratio = {
-        // Of the means; its interval by linear propagation over the paired runs.
-        let (a, c) = (changes(0).value, control_changes.value);
-        let spread = over(&|p: &TaskResult| last(p, CHANGES) - a / c * control(p, CHANGES));
-        Estimate::new(a / c, spread.uncertainty / c)
-    };
-    let gain_on =
-        |k: usize| over(&|p: &TaskResult| 100.0 * (last(p, DISTANCES) / last(p, DISTANCES + k) - 1.0));
-    let gain = over(&|p: &TaskResult| 100.0 * (last(p, DISTANCES) / control(p, DISTANCES) - 1.0));
-    let everyone = over(&|p: &TaskResult| {
-        let all = &p.columns[LAST_DISTANCES];
-        100.0 * (all[0] / mean(&all[1..]) - 1.0)
-    });
-    let more = over(&|p: &TaskResult| control(p, CHANGES) - control(alone, CHANGES));
-    let (enlarged, changed) =
-        runs.iter().fold((0.0, 0.0), |(e, c), p| (e + p.columns[FACTS][1], c + p.columns[FACTS][2]));
-    let not_enlarged = {
-        // Of the sums; changes of one run depend on each other, runs do not.
-        let share = (changed - enlarged) / changed;
-        let spread = over(&|p: &TaskResult| (1.0 - share) * p.columns[FACTS][2] - p.columns[FACTS][1]);
-        Estimate::new(share, spread.uncertainty / (changed / runs.len() as f64))
-    };
-    let per_change =
-        over(&|p: &TaskResult| slope_percent(&p.columns[LAST_CHANGES], &p.columns[LAST_DISTANCES]));
-    let paper_end = until == 500.0;
-    let scaled = if paper_end { String::new() } else { format!(" Only {until} s here.") };
-    vec![
-        claim(
-            "lane changes of the aggressive driver in 500 s",
-            "",
-            Expected::About(12.0, 0.5),
-            changes(0),
-            &format!("Tolerance: half a unit of the number printed.{scaled}"),
-        ),
-        claim(
-            "lane changes of a control driver in 500 s",
-            "",
-            Expected::About(3.0, 0.5),
-            control_changes,
-            &format!("{} Tolerance: half a unit of the number printed.{scaled}", both(&changes)),
-        ),
-        claim(
-            "the aggressive driver changes lanes about 4 times as often",
-            "",
-            Expected::About(4.0, 0.5),
-            ratio,
-            "Ratio of the two means; tolerance: half a unit of the number printed.",
-        ),
-        claim(
+/// The results that the claims are about.
+struct Results<'a> {
+    /// One for each seed.
+    runs: &'a [TaskResult],
+    /// The run without the aggressive driver.
+    alone: &'a TaskResult,
+    /// End of the runs, s.
+    until: f64,
+}
+
+/// The last number of a column.
+fn last(result: &TaskResult, column: usize) -> f64 {
+    *result.columns[column].last().expect("a row at the end")
+}
+
+/// The last number of a control driver: the mean of the two, which halves the noise.
+fn control(result: &TaskResult, first: usize) -> f64 {
+    0.5 * (last(result, first + 1) + last(result, first + 2))
+}
+
+impl Results<'_> {
+    /// Mean over the runs.
+    fn over(&self, of: impl Fn(&TaskResult) -> f64) -> Estimate {
+        Estimate::mean(&self.runs.iter().map(of).collect::<Vec<_>>())
+    }
+
+    /// Mean over the runs of a number of the column [`FACTS`].
+    fn fact(&self, k: usize) -> Estimate {
+        self.over(|run| run.columns[FACTS][k])
+    }
+
+    /// A claim about a mean over the runs.
+    fn claim(
+        &self,
+        text: &str,
+        unit: &'static str,
+        expected: Expected,
+        ours: Estimate,
+        method: &str,
+    ) -> Claim {
+        let method = format!("{method} {} runs, seeds 1 to {0}, 95 % interval.", self.runs.len());
+        Claim::new(ID, text, unit, expected, ours, method)
+    }
+
+    /// How often the aggressive driver and the control drivers change lanes.
+    fn lane_change_claims(&self) -> Vec<Claim> {
+        let changes = |k: usize| self.over(|run| last(run, CHANGES + k));
+        let control_changes = self.over(|run| control(run, CHANGES));
+        let ratio = {
+            // Of the means; its interval by linear propagation over the paired runs.
+            let (a, c) = (changes(0).value, control_changes.value);
+            let spread = self.over(|run| last(run, CHANGES) - a / c * control(run, CHANGES));
+            Estimate::new(a / c, spread.uncertainty / c)
+        };
+        let shorter =
+            if self.until == 500.0 { String::new() } else { format!(" Only {} s here.", self.until) };
+        vec![
+            self.claim(
+                "lane changes of the aggressive driver in 500 s",
+                "",
+                Expected::About(12.0, 0.5),
+                changes(0),
+                &format!("Tolerance: half a unit of the number printed.{shorter}"),
+            ),
+            self.claim(
+                "lane changes of a control driver in 500 s",
+                "",
+                Expected::About(3.0, 0.5),
+                control_changes,
+                &format!(
+                    "{} Tolerance: half a unit of the number printed.{shorter}",
+                    mean_of_both(changes(1), changes(2))
+                ),
+            ),
+            self.claim(
+                "the aggressive driver changes lanes about 4 times as often",
+                "",
+                Expected::About(4.0, 0.5),
+                ratio,
+                "Ratio of the two means; tolerance: half a unit of the number printed.",
+            ),
+        ]
+    }
+
+    /// How much farther the aggressive driver comes.
+    fn gain_claim(&self) -> Claim {
+        let percent = |a: f64, b: f64| 100.0 * (a / b - 1.0);
+        let gain_on = |k: usize| self.over(|run| percent(last(run, DISTANCES), last(run, DISTANCES + k)));
+        let gain = self.over(|run| percent(last(run, DISTANCES), control(run, DISTANCES)));
+        let on_all_others = self.over(|run| {
+            let all = &run.columns[LAST_DISTANCES];
+            percent(all[0], mean(&all[1..]))
+        });
+        self.claim(
             "the aggressive driver is less than 2 % faster",
             "%",
             Expected::AtMost(2.0),
             gain,
-            &format!("Distance against that of a control driver in the same run. {}", both(&gain_on)),
-        )
-        .or("against the mean of all other drivers", everyone),
-        claim(
-            "an aggressive driver raises the lane changes of its neighbours",
-            "",
-            Expected::MoreThan(0.0),
-            more,
-            "Lane changes of both neighbours in lane 2 less those without an aggressive driver, mean.",
-        ),
-        Claim::new(
-            ID,
-            "without an aggressive driver nobody ever changes lane: lane changes of all",
-            "",
-            Expected::AtMost(0.0),
-            Estimate::exact(alone.columns[LAST_CHANGES].iter().sum()),
-            format!("One run of {until} s, seed 1."),
-        ),
-        claim(
-            "lane 1 is faster than lane 2 before the first lane change: mean difference",
-            "m/s",
-            Expected::MoreThan(0.0),
-            fact(0),
-            "Mean speed of the control drivers of lane 1 less that of lane 2, over all steps before the first change.",
-        ),
-        Claim::new(
-            ID,
-            "the aggressive driver's frustration first rises when it passes a vehicle in lane 2: share of the runs",
-            "",
-            Expected::About(1.0, 0.0),
-            indicator(runs.iter().all(|p| p.columns[FACTS][4] == 1.0)),
-            format!(
-                "Whether, in every one of {0} runs, seeds 1 to {0}, φ of vehicle 1 leaves 0 in the very step in which it passes (1 means so); at {1:.2} s in the mean.",
-                runs.len(),
-                fact(3).value
+            &format!(
+                "Distance against that of a control driver in the same run. {}",
+                mean_of_both(gain_on(1), gain_on(2))
             ),
-        ),
-        claim(
-            "the driver who is passed then has a jump of frustration",
-            "",
-            Expected::About(0.1, 0.011),
-            fact(5),
-            "Rise of φ of the one passed in that step: p = 0.1, more or less one step of r.",
-        ),
-        claim(
-            "not every lane change enlarges the changer's headway: share of those that do not",
-            "",
-            Expected::MoreThan(0.0),
-            not_enlarged,
-            &format!("Of all {changed} lane changes, headway before the step against after it."),
-        ),
-        claim(
-            "more lane changes only marginally raise the speed: gain for each lane change more",
-            "%",
-            Expected::AtMost(2.0 / 9.0),
-            per_change,
-            "Slope of distance against lane changes over all 50 drivers of a run; marginal: 2 % for the 9 changes more that the paper counts.",
-        ),
-    ]
+        )
+        .or("against the mean of all other drivers", on_all_others)
+    }
+
+    /// What the aggressive driver does to its neighbours.
+    fn neighbour_claims(&self) -> Vec<Claim> {
+        let more = self.over(|run| control(run, CHANGES) - control(self.alone, CHANGES));
+        vec![
+            self.claim(
+                "an aggressive driver raises the lane changes of its neighbours",
+                "",
+                Expected::MoreThan(0.0),
+                more,
+                "Lane changes of both neighbours in lane 2 less those without an aggressive driver, mean.",
+            ),
+            Claim::new(
+                ID,
+                "without an aggressive driver there are no lane changes: lane changes of all vehicles",
+                "",
+                Expected::AtMost(0.0),
+                Estimate::exact(self.alone.columns[LAST_CHANGES].iter().sum()),
+                format!("One run of {} s, seed 1.", self.until),
+            ),
+        ]
+    }
+
+    /// How it begins: the faster lane and the first pass.
+    fn first_pass_claims(&self) -> Vec<Claim> {
+        vec![
+            self.claim(
+                "lane 1 is faster than lane 2 before the first lane change: mean difference",
+                "m/s",
+                Expected::MoreThan(0.0),
+                self.fact(0),
+                "Mean speed of the drivers with λ = 1 in lane 1 less that of lane 2, over all steps before the first change.",
+            ),
+            Claim::new(
+                ID,
+                "the aggressive driver's frustration first rises when it passes a vehicle in lane 2: 1 if so in every run",
+                "",
+                Expected::About(1.0, 0.0),
+                indicator(self.runs.iter().all(|run| run.columns[FACTS][4] == 1.0)),
+                format!(
+                    "Whether φ of vehicle 1 leaves 0 in the very step in which it first passes a vehicle, in every one of {0} runs, seeds 1 to {0}; at {1:.2} s on average.",
+                    self.runs.len(),
+                    self.fact(3).value
+                ),
+            ),
+            self.claim(
+                "the frustration of the driver that is passed jumps then",
+                "",
+                Expected::About(0.1, 0.011),
+                self.fact(5),
+                "Rise of φ of the passed driver in that step: p = 0.1, plus or minus one step of r.",
+            ),
+        ]
+    }
+
+    /// What a lane change brings.
+    fn benefit_claims(&self) -> Vec<Claim> {
+        let total = |k: usize| self.runs.iter().map(|run| run.columns[FACTS][k]).sum::<f64>();
+        let (enlarged, changed) = (total(1), total(2));
+        let not_enlarged = {
+            // Of the sums; changes of one run depend on each other, runs do not.
+            let share = (changed - enlarged) / changed;
+            let spread = self.over(|run| (1.0 - share) * run.columns[FACTS][2] - run.columns[FACTS][1]);
+            Estimate::new(share, spread.uncertainty / (changed / self.runs.len() as f64))
+        };
+        let per_change =
+            self.over(|run| slope_percent(&run.columns[LAST_CHANGES], &run.columns[LAST_DISTANCES]));
+        vec![
+            self.claim(
+                "not every lane change enlarges the changer's headway: share of those that do not",
+                "",
+                Expected::MoreThan(0.0),
+                not_enlarged,
+                &format!("Of all {changed} lane changes, headway before the step against after it."),
+            ),
+            self.claim(
+                "more lane changes only marginally raise the speed: gain for each further lane change",
+                "%",
+                Expected::AtMost(2.0 / 9.0),
+                per_change,
+                "Slope of distance against lane changes over all 50 drivers of a run; marginal: 2 % for the 9 further lane changes that the paper counts.",
+            ),
+        ]
+    }
+}
+
+/// The words for a mean of the two control drivers, and the value of each.
+fn mean_of_both(ahead: Estimate, behind: Estimate) -> String {
+    format!("Mean of both neighbours in lane 2: ahead {ahead}, behind {behind}.")
+}
+
+fn claims(size: Size, runs: &[TaskResult], alone: &TaskResult) -> Vec<Claim> {
+    let results = Results { runs, alone, until: until(size) };
+    let mut claims = results.lane_change_claims();
+    claims.push(results.gain_claim());
+    claims.extend(results.neighbour_claims());
+    claims.extend(results.first_pass_claims());
+    claims.extend(results.benefit_claims());
+    claims
 }
 
 /// Slope of distance, in per cent of its mean, against lane changes.

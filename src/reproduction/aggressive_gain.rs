@@ -1,10 +1,12 @@
-//! Beyond the paper: what aggressive drivers gain, against how aggressive they are, how many, and how dense the
-//! traffic is.
+//! Beyond the paper: the gain of aggressive drivers against their λ, their share and the density of traffic.
 
-use super::{Figure, FigureTable, Outcome, Size, TaskResult, measured};
+use super::claim::{Claim, Estimate, Expected};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::measured;
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
+use crate::numerics::statistics::mean;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, mean};
 use crate::scenario::{Scenario, Start};
 
 const ID: &str = "aggressive-gain";
@@ -17,21 +19,25 @@ pub(super) const FIGURE: Figure = Figure {
               vehicles. 20 runs each, seeds 1 to 20. Gain: mean distance of the aggressive over that of all \
               others; mean and 95 % confidence interval.",
     beyond: true,
-    pieces: |size| {
+    tasks: |size| {
         let each = |point: &Point| {
             let name = point.name();
             (1..=runs(size)).map(move |seed| format!("{name}, run {seed}")).collect::<Vec<_>>()
         };
         points(size).iter().flat_map(each).collect()
     },
-    start: |size, piece| Box::new(move || run(size, piece)),
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
+/// What is varied, and its value; the rest is as in the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Point {
+    /// λ of the one aggressive driver, 1/s.
     Sensitivity(f64),
+    /// Share of aggressive drivers, %.
     Share(f64),
+    /// Number of vehicles, one of them aggressive.
     Vehicles(usize),
 }
 
@@ -45,7 +51,7 @@ impl Point {
     }
 
     fn scenario(self, size: Size, seed: u64) -> Scenario {
-        let exception = match self {
+        let driver_override = match self {
             Self::Sensitivity(lambda) => format!("1:sensitivity={lambda}"),
             Self::Share(share) => format!("{share}%:sensitivity=2"),
             Self::Vehicles(_) => "1:sensitivity=2".to_owned(),
@@ -57,7 +63,7 @@ impl Point {
             time_step: 0.05,
             until: size.choose(500.0, 100.0),
             seed,
-            exceptions: vec![exception.parse().expect("the grammar of exceptions")],
+            exceptions: vec![driver_override.parse().expect("the grammar of driver overrides")],
             ..Scenario::default()
         }
     }
@@ -67,7 +73,7 @@ fn points(size: Size) -> Vec<Point> {
     let lambdas: &[f64] = size.choose(&[1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0], &[2.0, 4.0]);
     let shares: &[f64] =
         size.choose(&[2.0, 4.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0], &[10.0]);
-    // From 140 on nobody changes lane.
+    // From 140 vehicles on there are no lane changes.
     let counts: &[usize] = size.choose(&[20, 40, 60, 80, 100, 120, 140, 200], &[50, 100]);
     let lambdas = lambdas.iter().map(|&l| Point::Sensitivity(l));
     let shares = shares.iter().map(|&s| Point::Share(s));
@@ -78,12 +84,12 @@ fn runs(size: Size) -> usize {
     size.choose(20, 3)
 }
 
-/// Gain in per cent, lane changes of an aggressive and of another driver, mean speed of all.
-fn run(size: Size, piece: usize) -> TaskResult {
-    let (point, seed) = (piece / runs(size), piece % runs(size) + 1);
+/// Gain in per cent, mean lane changes of the aggressive and of the other drivers, mean speed of all in m/s.
+fn run(size: Size, task: usize) -> TaskResult {
+    let (point, seed) = (task / runs(size), task % runs(size) + 1);
     let scenario = points(size)[point].scenario(size, seed as u64);
     let (_, simulation) = measured(&scenario, &[]);
-    let split = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
+    let mean_of = |f: &dyn Fn(usize) -> f64, aggressive: bool| {
         let each =
             (0..simulation.vehicles()).filter(|&j| (simulation.driver(j).sensitivity > 1.0) == aggressive);
         mean(&each.map(f).collect::<Vec<_>>())
@@ -93,25 +99,25 @@ fn run(size: Size, piece: usize) -> TaskResult {
     let all: Vec<f64> = (0..simulation.vehicles()).map(distance).collect();
     TaskResult {
         columns: vec![vec![
-            100.0 * (split(&distance, true) / split(&distance, false) - 1.0),
-            split(&changes, true),
-            split(&changes, false),
+            100.0 * (mean_of(&distance, true) / mean_of(&distance, false) - 1.0),
+            mean_of(&changes, true),
+            mean_of(&changes, false),
             mean(&all) / simulation.time(),
         ]],
     }
 }
 
-/// A curve: points of one kind.
+/// The results of all points at which the same thing is varied.
 struct Series {
     x: Vec<f64>,
-    /// Gain, lane changes of the aggressive, of the others, mean speed.
+    /// Gain, lane changes of the aggressive drivers, of the others, mean speed; one value for each point.
     values: [Vec<Estimate>; 4],
 }
 
 impl Series {
-    fn of(size: Size, pieces: &[TaskResult], x: impl Fn(Point) -> Option<f64>) -> Self {
+    fn of(size: Size, results: &[TaskResult], x: impl Fn(Point) -> Option<f64>) -> Self {
         let mut series = Self { x: Vec::new(), values: Default::default() };
-        for (point, of_point) in points(size).into_iter().zip(pieces.chunks(runs(size))) {
+        for (point, of_point) in points(size).into_iter().zip(results.chunks(runs(size))) {
             if let Some(at) = x(point) {
                 series.x.push(at);
                 for (k, values) in series.values.iter_mut().enumerate() {
@@ -177,11 +183,11 @@ impl Series {
     }
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
-    let lambda = Series::of(size, pieces, |p| if let Point::Sensitivity(l) = p { Some(l) } else { None });
-    let share = Series::of(size, pieces, |p| if let Point::Share(s) = p { Some(s) } else { None });
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
+    let lambda = Series::of(size, results, |p| if let Point::Sensitivity(l) = p { Some(l) } else { None });
+    let share = Series::of(size, results, |p| if let Point::Share(s) = p { Some(s) } else { None });
     let density =
-        Series::of(size, pieces, |p| if let Point::Vehicles(n) = p { Some(n as f64) } else { None });
+        Series::of(size, results, |p| if let Point::Vehicles(n) = p { Some(n as f64) } else { None });
     let base = Point::Sensitivity(2.0).scenario(size, 1);
     let how = |what: &str| format!("{} runs for each {what}, seeds 1 to {0}", runs(size));
     let lambda_column =
@@ -222,7 +228,7 @@ fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
             .expect("a point");
         Claim::new(
             ID,
-            format!("beyond the paper: the gain stays under 2 % whatever the {what}; the largest"),
+            format!("beyond the paper: the gain stays under 2 % for every {what}; the largest"),
             "%",
             Expected::AtMost(2.0),
             *largest,

@@ -1,18 +1,34 @@
-//! Claims: what the paper says, beside what is measured here, with a verdict that is computed and never written by
-//! hand.
+//! Claims of the paper beside the values that are measured here, each with a verdict that is computed and never written
+//! by hand.
 //!
 //! # How a verdict comes about
 //!
-//! What is measured is an [`Estimate`], a value with its uncertainty: the half-width of the 95 % confidence interval
-//! over independent runs, or the width of the grid on which something was looked for; 0 where the value is exact.
+//! A measured value is an [`Estimate`]: the value with its uncertainty, which is the half-width of the 95 % confidence
+//! interval over independent runs, or half the distance of the grid on which the value was searched, or 0 where the
+//! value is exact.
 //!
-//! - [`Expected::About`] a number, within a tolerance that the row states: met when the two intervals overlap.
-//! - [`Expected::AtMost`] and [`Expected::MoreThan`]: an order; it must hold for the whole interval.
+//! - [`Expected::About`], a number with a tolerance that the claim states: met when the interval of the estimate and
+//!   that of the tolerance overlap.
+//! - [`Expected::AtMost`] and [`Expected::MoreThan`], an inequality: met when the whole interval of the estimate obeys
+//!   it.
 //!
-//! Where the paper leaves something open that matters (whose speed, how many periods), each choice is a
-//! [`Reading`]. If all of them meet the claim, it *agrees*; if none does, it *differs*; if some do and some do not,
-//! it is *not determined by the paper*.
+//! Where the paper leaves a choice open that changes the value (which vehicle's speed, how many periods), each choice
+//! is a [`Reading`]. If all readings meet the claim, it *agrees*; if none does, it *differs*; if some do, it is *not
+//! determined by the paper*.
+//!
+//! ```
+//! use ringroad::reproduction::claim::{Claim, ClaimVerdict, Estimate, Expected};
+//!
+//! let claim = |ours| {
+//!     Claim::new("figure", "jam density", "veh/km", Expected::About(134.0, 0.5), ours, "1/d.")
+//! };
+//! assert_eq!(claim(Estimate::exact(133.3)).verdict(), ClaimVerdict::Differs);
+//! assert_eq!(claim(Estimate::new(133.3, 0.4)).verdict(), ClaimVerdict::Agrees);
+//! let open = claim(Estimate::exact(133.3)).or("whole vehicles on 1 km", Estimate::exact(134.0));
+//! assert_eq!(open.verdict(), ClaimVerdict::NotDetermined);
+//! ```
 
+use crate::numerics::statistics::{Statistics, Student};
 use serde::{Serialize, Serializer};
 use std::fmt::{self, Write as _};
 
@@ -21,11 +37,11 @@ use std::fmt::{self, Write as _};
 pub struct Estimate {
     /// The value; NaN where there is none.
     pub value: f64,
-    /// Half-width of the interval in which the true value is taken to lie.
+    /// Half-width of the interval about the value; NaN where it is unknown, 0 where the value is exact.
     pub uncertainty: f64,
 }
 
-/// The value, and the uncertainty if there is one.
+/// The value, and the uncertainty unless it is 0.
 impl fmt::Display for Estimate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&short(self.value))?;
@@ -39,56 +55,32 @@ impl Estimate {
         Self { value, uncertainty }
     }
 
-    /// A value computed without error worth mentioning.
+    /// A value without uncertainty.
     pub fn exact(value: f64) -> Self {
         Self { value, uncertainty: 0.0 }
     }
 
-    /// Mean of independent samples with its 95 % confidence interval (Student's t). With fewer than two samples the
-    /// uncertainty is unknown, and no claim is met.
+    /// The mean of a sample with the half-width of its 95 % confidence interval.
+    pub fn of(statistics: &Statistics) -> Self {
+        let [low, high] = statistics.interval;
+        Self { value: statistics.mean, uncertainty: 0.5 * (high - low) }
+    }
+
+    /// The mean of independent samples with its 95 % confidence interval (Student's t). With fewer than two samples
+    /// the uncertainty is NaN, with a sample that is NaN the value too; no claim is met then.
     pub fn mean(samples: &[f64]) -> Self {
-        let n = samples.len() as f64;
-        Self { value: mean(samples), uncertainty: student_95(n - 1.0) * deviation(samples) / n.sqrt() }
+        if samples.iter().any(|sample| sample.is_nan()) {
+            return Self::new(f64::NAN, f64::NAN);
+        }
+        Self::of(&Statistics::of(samples.iter().copied(), &mut Student::default()))
     }
 }
 
-/// Mean; NaN of nothing.
-pub fn mean(samples: &[f64]) -> f64 {
-    samples.iter().sum::<f64>() / samples.len() as f64
-}
-
-/// Standard deviation of a sample, n − 1 in the denominator; NaN for fewer than two.
-pub fn deviation(samples: &[f64]) -> f64 {
-    let mean = mean(samples);
-    let squares: f64 = samples.iter().map(|x| (x - mean) * (x - mean)).sum();
-    if samples.len() < 2 { f64::NAN } else { (squares / (samples.len() as f64 - 1.0)).sqrt() }
-}
-
-/// The 97.5 % quantile of Student's t for `freedom` degrees of freedom: tabulated up to 4, then the expansion about
-/// the normal quantile (Abramowitz & Stegun 26.7.5), right to 0.002.
-pub fn student_95(freedom: f64) -> f64 {
-    const FEW: [f64; 4] = [12.706_205, 4.302_653, 3.182_446, 2.776_445];
-    if freedom < 1.0 {
-        return f64::NAN;
-    }
-    if freedom <= 4.0 {
-        return FEW[freedom as usize - 1];
-    }
-    let z = 1.959_964;
-    let z2 = z * z;
-    let terms = [
-        (z2 + 1.0) / 4.0,
-        ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0,
-        (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0,
-        ((((79.0 * z2 + 776.0) * z2 + 1482.0) * z2 - 1920.0) * z2 - 945.0) / 92_160.0,
-    ];
-    z * (1.0 + terms.iter().rev().fold(0.0, |sum, term| (sum + term) / freedom))
-}
-
-/// What the paper says, in a form that can be checked.
+/// The paper's statement in a form that can be checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Expected {
-    /// A number, within a tolerance.
+    /// This number, within this tolerance.
     About(f64, f64),
     /// No more than this.
     AtMost(f64),
@@ -97,7 +89,7 @@ pub enum Expected {
 }
 
 impl Expected {
-    /// Whether an estimate meets it. No value meets nothing.
+    /// Whether an estimate meets it. An estimate with NaN never does.
     pub fn is_met_by(self, ours: Estimate) -> bool {
         let Estimate { value, uncertainty } = ours;
         match self {
@@ -108,23 +100,24 @@ impl Expected {
     }
 }
 
-/// One way to read what the paper leaves open, and what it gives.
+/// One choice where the paper leaves a choice open, and the value that it gives.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Reading {
     /// The choice, in words.
     pub choice: String,
-    /// What is measured then.
+    /// Our value under this choice.
     pub ours: Estimate,
 }
 
-/// What comes of holding a claim against measurements.
+/// The verdict on a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClaimVerdict {
     /// Every reading meets the claim.
     Agrees,
-    /// None does.
+    /// No reading meets it.
     Differs,
-    /// Some do.
+    /// Some readings meet it, some do not.
     NotDetermined,
 }
 
@@ -138,20 +131,21 @@ impl fmt::Display for ClaimVerdict {
     }
 }
 
-/// One row of the table of claims.
+/// A claim of the paper beside our value: one row of the table of claims.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Claim {
-    /// Identifier of the figure that it is measured for.
+    /// Identifier of the figure whose runs check it.
     pub figure: &'static str,
-    /// What is claimed.
+    /// The claim, in words.
     pub claim: String,
     /// Unit of the numbers; empty for a pure one.
     pub unit: &'static str,
-    /// What the paper says.
+    /// The paper's statement.
     pub expected: Expected,
-    /// The reading taken here, first, and others that the paper allows as well.
+    /// The reading that we take, first; then others that the paper allows as well.
     pub readings: Vec<Reading>,
-    /// How it was measured, and where the tolerance comes from.
+    /// How the value was measured, and where the tolerance comes from.
     pub method: String,
 }
 
@@ -176,12 +170,12 @@ impl Claim {
         self
     }
 
-    /// What we measure, in the reading taken here.
+    /// Our value, under the reading that we take.
     pub fn ours(&self) -> Estimate {
         self.readings[0].ours
     }
 
-    /// The verdict.
+    /// The verdict, from all readings.
     pub fn verdict(&self) -> ClaimVerdict {
         let met = self.readings.iter().filter(|r| self.expected.is_met_by(r.ours)).count();
         match met {
@@ -191,7 +185,7 @@ impl Claim {
         }
     }
 
-    /// What the paper says, in words, with the tolerance: `2065 ± 0.5 veh/h`.
+    /// The paper's statement in words, with the tolerance: `2065 ± 0.5 veh/h`.
     pub fn paper(&self) -> String {
         let text = match self.expected {
             Expected::About(value, tolerance) => format!("{} ± {}", short(value), short(tolerance)),
@@ -201,13 +195,13 @@ impl Claim {
         with_unit(text, self.unit)
     }
 
-    /// What we measure, in words: `2065.2 veh/h`, or `40.2 ± 0.3 %`.
+    /// Our value in words: `2065 veh/h`, or `40.2 ± 0.3 %`; `none` where there is none.
     pub fn ours_in_words(&self) -> String {
         let ours = self.ours();
         if ours.value.is_nan() { "none".into() } else { with_unit(ours.to_string(), self.unit) }
     }
 
-    /// How it was measured, with what the other readings give.
+    /// How the value was measured, and the values of the other readings (their range where they are more than six).
     pub fn method_in_words(&self) -> String {
         let mut text = self.method.clone();
         let others = &self.readings[1..];
@@ -254,6 +248,7 @@ impl Serialize for Claim {
     }
 }
 
+/// A text with its unit behind it.
 fn with_unit(text: String, unit: &str) -> String {
     match unit {
         "" => text,
@@ -262,7 +257,7 @@ fn with_unit(text: String, unit: &str) -> String {
     }
 }
 
-/// A number with about four significant digits, as many as a claim needs.
+/// A number with about four significant digits; `none` for NaN.
 pub fn short(value: f64) -> String {
     if value.is_nan() {
         return "none".into();
@@ -310,6 +305,7 @@ pub fn to_text(claims: &[Claim]) -> String {
     out
 }
 
+/// A verdict in one word, for the text on a terminal.
 struct Short(ClaimVerdict);
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -321,6 +317,7 @@ impl fmt::Display for Short {
     }
 }
 
+/// The words of a text in lines of at most so many characters.
 fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
@@ -373,7 +370,7 @@ mod tests {
         assert_eq!(
             most(Estimate::new(1.5, 0.6)),
             ClaimVerdict::Differs,
-            "an order must hold for the whole interval"
+            "an inequality must hold for the whole interval"
         );
         let more = |ours| claim(Expected::MoreThan(0.0), ours).verdict();
         assert_eq!(more(Estimate::new(0.5, 0.4)), ClaimVerdict::Agrees);
@@ -403,7 +400,7 @@ mod tests {
     }
 
     #[test]
-    fn the_summary_speaks_of_one_and_of_many() {
+    fn the_summary_has_the_singular_for_one() {
         let of = |ours: &[f64]| {
             let claims: Vec<_> =
                 ours.iter().map(|&v| claim(Expected::AtMost(1.0), Estimate::exact(v))).collect();
@@ -425,19 +422,16 @@ mod tests {
         assert!(none["ours"].is_null());
     }
 
-    /// Values of tables of Student's distribution.
+    /// The 0.975 quantile of Student's t for three degrees of freedom is 3.182446 (NIST/SEMATECH handbook, 1.3.6.7.2).
     #[test]
-    fn quantiles_and_intervals() {
-        for (freedom, t) in
-            [(1.0, 12.706), (4.0, 2.776), (5.0, 2.571), (9.0, 2.262), (19.0, 2.093), (99.0, 1.984)]
-        {
-            assert!((student_95(freedom) - t).abs() < 2e-3, "{freedom}: {}", student_95(freedom));
-        }
+    fn a_mean_has_the_interval_of_student() {
         let four = Estimate::mean(&[1.0, 2.0, 3.0, 4.0]);
-        assert!(
-            (four.value - 2.5).abs() < 1e-15 && (four.uncertainty - 3.182 * 1.290_994 / 2.0).abs() < 1e-3
-        );
+        assert!((four.value - 2.5).abs() < 1e-15, "{four}");
+        assert!((four.uncertainty - 3.182_446 * (5.0_f64 / 3.0).sqrt() / 2.0).abs() < 1e-6, "{four}");
+        assert_eq!(Estimate::mean(&[0.1, 0.1, 0.1]), Estimate::exact(0.1));
         assert!(Estimate::mean(&[1.0]).uncertainty.is_nan());
+        let unknown = Estimate::mean(&[1.0, f64::NAN, 2.0]);
+        assert!(unknown.value.is_nan() && unknown.uncertainty.is_nan());
     }
 
     #[test]

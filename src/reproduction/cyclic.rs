@@ -1,10 +1,12 @@
 //! The cyclic growth rate k under every choice that the paper leaves open.
 //!
-//! f(n) = v∞ − v_min,n of one vehicle in its n-th period. The paper says neither whose speed, nor how many
-//! periods, nor what a period is. Two answers to the last: from one upward crossing of v∞ to the next; or the round
-//! trip of the disturbance, which goes backwards past c = dv/dh vehicles a second and so meets a vehicle again after
-//! N/c = 68.3 s. The second fits what the paper says of Δ = 0.8 s, a collision "within one cycle".
+//! f(n) = v∞ − v_min,n is taken from one vehicle in its n-th period. The paper states neither the vehicle, nor the number
+//! of periods, nor what a period is. Two definitions of a period are tried: from one upward crossing of v∞ to the next,
+//! and the round trip of the disturbance. The disturbance passes c = dv/dh vehicles each second, against the direction
+//! of driving, and so returns to a vehicle after N/c = 68.3 s. The second definition gives a meaning to what the paper
+//! says of Δ = 0.8 s, a collision "within one cycle".
 
+use super::shared::column;
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::measurement::probe::{Probe, measure};
@@ -13,30 +15,33 @@ use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
 use crate::simulation::Simulation;
 
-/// Vehicles, all of which are looked at.
+/// Number of vehicles; each of them is a choice.
 pub(super) const VEHICLES: usize = 50;
-/// Most upward crossings and most round trips looked at.
+/// Largest numbers of upward crossings and of round trips that are tried.
 const MOST: [usize; 2] = [12, 4];
 
-/// What a period is.
+/// The definition of a period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Period {
+    /// From one upward crossing of v∞ to the next.
     Crossings,
+    /// A round trip of the disturbance, from t = 0.
     RoundTrips,
 }
 
-/// A way to read k off a run.
+/// A choice of everything that the paper leaves open about k.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Choice {
-    /// From 0.
+    /// The vehicle, from 0.
     pub vehicle: usize,
     pub period: Period,
+    /// Number of periods fitted, from the first.
     pub periods: usize,
-    /// The fit: a line through logarithms instead of non-linear least squares.
+    /// Whether the fit is a line through the logarithms instead of non-linear least squares.
     pub logarithms: bool,
 }
 
-/// The choice taken here: one of the vehicles that the paper shows, and as many round trips as fit in before the collision
+/// The choice that we take: one of the vehicles that the paper shows, and as many round trips as end before the collision
 /// that it reports for 0.75 s.
 pub(super) const TAKEN: Choice =
     Choice { vehicle: 20, period: Period::RoundTrips, periods: 3, logarithms: false };
@@ -62,43 +67,45 @@ impl Choice {
         format!("vehicle {}, {} {}, {}", self.vehicle + 1, self.periods, self.period_word(), self.fit_word())
     }
 
+    /// The definition of the period, in words.
     pub fn period_word(self) -> &'static str {
         if self.period == Period::Crossings { "upward crossings" } else { "round trips" }
     }
 
+    /// The fit, in words.
     pub fn fit_word(self) -> &'static str {
         if self.logarithms { "line through the logarithms" } else { "least squares" }
     }
 }
 
-/// v∞ of the paper's ring.
+/// v∞ of the paper's ring, m/s.
 pub(super) fn equilibrium_speed() -> f64 {
     Driver::default().speed(1000.0 / VEHICLES as f64)
 }
 
-/// The time in which a disturbance comes back to the same vehicle, s.
+/// The time after which a disturbance returns to the same vehicle, N/c, s.
 pub(super) fn round_trip() -> f64 {
     VEHICLES as f64 / Driver::default().slope(1000.0 / VEHICLES as f64)
 }
 
-/// f(n) of every vehicle, for upward crossings and for round trips.
+/// f(n) of every vehicle, m/s: first the columns for upward crossings, then those for round trips.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Depths {
     columns: Vec<Vec<f64>>,
 }
 
 impl Depths {
-    /// From the columns of a piece.
+    /// From the columns of a task result.
     pub fn new(columns: &[Vec<f64>]) -> Self {
         Self { columns: columns.to_vec() }
     }
 
-    /// As columns of a piece.
+    /// As columns of a task result.
     pub fn into_columns(self) -> Vec<Vec<f64>> {
         self.columns
     }
 
-    /// Runs a scenario of 50 vehicles with further probes.
+    /// Runs a scenario of 50 vehicles, with further probes. Returns f(n), the tables of those probes and the last state.
     pub fn measure(scenario: &Scenario, probes: Vec<Box<dyn Probe>>) -> (Self, Vec<Table>, Simulation) {
         let further = probes.len();
         let mut probes = probes;
@@ -112,7 +119,7 @@ impl Depths {
         let mut tables: Vec<Table> = probes.iter().map(|p| p.table()).collect();
         let of_growth = tables.split_off(further);
         let (trips, crossings) = of_growth.split_last().expect("the round trips");
-        let depth = |t: &Table| super::column(t, "f_m_per_s");
+        let depth = |t: &Table| column(t, "f_m_per_s");
         let mut columns: Vec<_> = crossings.iter().map(depth).collect();
         let all = depth(trips);
         let complete = ((simulation.time() / round_trip()) as usize).min(MOST[1]);
@@ -120,12 +127,12 @@ impl Depths {
         (Self { columns }, tables, simulation)
     }
 
-    /// f(n) of a vehicle (from 0).
+    /// f(n) of a vehicle (from 0), m/s.
     pub fn of(&self, vehicle: usize, period: Period) -> &[f64] {
         &self.columns[vehicle + if period == Period::Crossings { 0 } else { VEHICLES }]
     }
 
-    /// The fit of a choice, if the run has as many periods and all f(n) are positive.
+    /// The fit of a choice; `None` where the run has too few periods or an f(n) is not positive.
     pub fn growth(&self, choice: Choice) -> Option<least_squares::Exponential> {
         let depths = self.of(choice.vehicle, choice.period).get(..choice.periods)?;
         if depths.iter().any(|&f| f <= 0.0) {

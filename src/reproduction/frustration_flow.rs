@@ -1,10 +1,13 @@
-//! Beyond the paper: flow, balance and lane changes over the plane of r and p.
+//! Beyond the paper: flow, balance and lane changes against r and p.
 
-use super::{Figure, FigureTable, Outcome, Size, TaskResult, column, measured};
+use super::claim::{Claim, Estimate, Expected};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{column, measured};
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
+use crate::numerics::statistics::mean;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, mean};
 use crate::scenario::{Scenario, Start};
 
 const ID: &str = "frustration-flow";
@@ -15,18 +18,19 @@ pub(super) const FIGURE: Figure = Figure {
     caption: "Fifty vehicles start in lane 1 of two, steps of 0.05 s, no reaction time; r and p each from 0.001 to 1 in \
               thirds of a power of ten. Means over 60 to 300 s and 8 runs, seeds 1 to 8.",
     beyond: true,
-    pieces: |size| {
+    tasks: |size| {
         let rates = rates(size);
         let pairs = rates.iter().flat_map(|r| rates.iter().map(move |p| format!("r = {r}, p = {p}")));
         pairs.collect()
     },
-    start: |size, piece| Box::new(move || run(size, piece)),
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
-/// Thirds of a power of ten.
+/// 10^(k/3) for k = 0, 1, 2.
 const THIRDS: [f64; 3] = [1.0, 2.154_435, 4.641_589];
 
+/// Values of r and of p.
 fn rates(size: Size) -> Vec<f64> {
     let decades: &[f64] = size.choose(&[1e-3, 1e-2, 1e-1], &[1e-2]);
     let mut rates: Vec<f64> = decades.iter().flat_map(|decade| THIRDS.map(|third| decade * third)).collect();
@@ -54,10 +58,10 @@ fn scenario(size: Size, r: f64, p: f64, seed: u64) -> Scenario {
     scenario
 }
 
-/// Run by run: flow (veh/s), ΔN, lane changes of a vehicle a minute; all from 60 s on.
-fn run(size: Size, piece: usize) -> TaskResult {
+/// Three columns with a row for each run: flow (veh/s), ΔN, lane changes per vehicle and minute; all from 60 s on.
+fn run(size: Size, task: usize) -> TaskResult {
     let rates = rates(size);
-    let (r, p) = (rates[piece / rates.len()], rates[piece % rates.len()]);
+    let (r, p) = (rates[task / rates.len()], rates[task % rates.len()]);
     let mut columns = vec![Vec::new(); 3];
     for seed in 1..=runs(size) {
         let scenario = scenario(size, r, p, seed);
@@ -79,11 +83,11 @@ fn run(size: Size, piece: usize) -> TaskResult {
     TaskResult { columns }
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
     let rates = rates(size);
     let k = rates.len();
     let each = |which: usize| -> Vec<Estimate> {
-        pieces.iter().map(|piece| Estimate::mean(&piece.columns[which])).collect()
+        results.iter().map(|result| Estimate::mean(&result.columns[which])).collect()
     };
     let quantities = [
         ("flow", "_veh_per_s", "veh/s", "flow, mean speed times density, both lanes"),
@@ -114,14 +118,14 @@ fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
         let values: Vec<f64> = each(which).iter().map(|e| e.value).collect();
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        // Rows of the map are values of p.
-        let turned = (0..k).flat_map(|p| (0..k).map(move |r| r * k + p)).map(|i| values[i]).collect();
+        // The results are in the order of r; the rows of the map are values of p.
+        let transposed = (0..k).flat_map(|p| (0..k).map(move |r| r * k + p)).map(|i| values[i]).collect();
         let map = Layer::Map {
             name: name.into(),
             width: k,
             x: ends,
             y: ends,
-            values: turned,
+            values: transposed,
             range: (low, high.max(low + 1e-9)),
             middle: None,
             signed_log: false,
@@ -151,12 +155,12 @@ fn claims(size: Size, flows: &[Estimate]) -> Vec<Claim> {
     let half = flows.iter().map(|e| e.uncertainty).fold(0.0, f64::max);
     vec![Claim::new(
         ID,
-        "beyond the paper: r and p hardly matter for the flow, once balanced; largest over smallest, less one",
+        "beyond the paper: r and p hardly change the flow of balanced lanes; largest flow over smallest, less one",
         "%",
         Expected::AtMost(10.0),
         Estimate::new(100.0 * (best / worst - 1.0), 100.0 * libm::hypot(half, half) / worst),
         format!(
-            "{} pairs of r and p, {1} runs each, seeds 1 to {1}, 95 % interval from the widest of a mean; hardly: at most 10 %.",
+            "{} pairs of r and p, {1} runs each, seeds 1 to {1}, 95 % interval from the widest interval of a mean; hardly: at most 10 %.",
             flows.len(),
             runs(size)
         ),

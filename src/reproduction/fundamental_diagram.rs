@@ -1,10 +1,12 @@
-//! The speed law and the fundamental diagram, theory and, as points, rings that were run.
+//! The speed law and the fundamental diagram: curves from the formulas, and points from runs of uniform rings.
 
-use super::{Figure, FigureTable, Outcome, Size, TaskResult, column, measured};
+use super::claim::{Claim, Estimate, Expected};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{column, measured};
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected};
 use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
 
@@ -16,11 +18,12 @@ pub(super) const FIGURE: Figure = Figure {
     caption: "Speed against headway, and flow against density in equilibrium, from the formulas; the points are \
               uniform rings of 1 km that were run for 60 s, their mean speed times their density.",
     beyond: false,
-    pieces: |size| rings(size).iter().map(|n| format!("ring of {n} vehicles")).collect(),
-    start: |size, piece| Box::new(move || run(size, piece)),
+    tasks: |size| rings(size).iter().map(|n| format!("ring of {n} vehicles")).collect(),
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
+/// Numbers of vehicles of the rings that are run.
 fn rings(size: Size) -> Vec<usize> {
     size.choose((5..=130).step_by(5).chain([134, 140]).collect(), vec![25, 50, 134])
 }
@@ -29,15 +32,15 @@ fn scenario(vehicles: usize) -> Scenario {
     Scenario { vehicles, until: 60.0, ..Scenario::default() }
 }
 
-/// Flow, veh/s.
-fn run(size: Size, piece: usize) -> TaskResult {
-    let scenario = scenario(rings(size)[piece]);
+/// The flow of a ring, veh/s.
+fn run(size: Size, task: usize) -> TaskResult {
+    let scenario = scenario(rings(size)[task]);
     let (tables, _) = measured(&scenario, &[Measurement::Drivers { every: 60.0 }]);
     let speed = *column(&tables[0], "mean_speed_m_per_s").last().expect("a row at the end");
     TaskResult { columns: vec![vec![speed * scenario.vehicles as f64 / scenario.length]] }
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
     let driver = Driver::default();
     let headways: Vec<f64> = (0..=400).map(|i| f64::from(i) * 0.5).collect();
     let speeds: Vec<f64> = headways.iter().map(|&h| driver.speed(h)).collect();
@@ -45,7 +48,7 @@ fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     let flows: Vec<f64> = densities.iter().map(|&rho| 3600.0 * driver.flow(rho / 1000.0)).collect();
     let counts = rings(size);
     let measured_density: Vec<f64> = counts.iter().map(|&n| n as f64).collect();
-    let measured_flow: Vec<f64> = pieces.iter().map(|p| 3600.0 * p.columns[0][0]).collect();
+    let measured_flow: Vec<f64> = results.iter().map(|p| 3600.0 * p.columns[0][0]).collect();
     let top = driver.capacity();
 
     let law = Table::new(vec![
@@ -178,7 +181,7 @@ fn claims(driver: &Driver, flow_at: &dyn Fn(usize) -> f64) -> Vec<Claim> {
             "flow rises with density up to ρ*, then falls",
             "",
             Expected::AtMost(0.0),
-            Estimate::exact(wrong_turns(driver, top.density) as f64),
+            Estimate::exact(steps_against_the_shape(driver, top.density) as f64),
             "Number of steps of 0.1 veh/km between 0 and 1/d at which flow changes in the other direction.",
         ),
         about(
@@ -192,7 +195,8 @@ fn claims(driver: &Driver, flow_at: &dyn Fn(usize) -> f64) -> Vec<Claim> {
     ]
 }
 
-fn wrong_turns(driver: &Driver, critical: f64) -> usize {
+/// Steps of 0.1 veh/km at which the flow does not rise below the critical density (veh/m) or does not fall above it.
+fn steps_against_the_shape(driver: &Driver, critical: f64) -> usize {
     (0..1333)
         .map(|i| (f64::from(i) * 1e-4, f64::from(i + 1) * 1e-4))
         .filter(|&(a, b)| {

@@ -1,10 +1,13 @@
-//! Two lanes share the load: all vehicles start in one of them.
+//! Load balance: all vehicles start in one of two lanes and spread over both.
 
-use super::{Figure, FigureTable, Outcome, Size, Spread, TaskResult, column, measured};
+use super::claim::{Claim, Estimate, Expected};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{Spread, column, measured};
+use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
+use crate::numerics::statistics::mean;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, mean};
 use crate::scenario::driver::Driver;
 use crate::scenario::{Scenario, Start};
 use crate::simulation::frustration::attempt_probability;
@@ -16,38 +19,39 @@ pub(super) const FIGURE: Figure = Figure {
     title: "Two lanes share the load",
     caption: "Fifty vehicles start in lane 1 of two, steps of 0.05 s, no reaction time, r = 0.1 /s, p = 0.2; 10 runs with \
               seeds 1 to 10. The difference ΔN between the lanes and the flow at L/2 over a window of 5 s: mean and \
-              95 % confidence interval of the mean. Beside them, in orange, the same with r = 0.01 /s, p = 0.02. What is \
-              left in the long run is smaller than the noise of 10 runs: claims about it take 100, seeds 1 to 100.",
+              95 % confidence interval of the mean. Beside them, in orange, the same with r = 0.01 /s, p = 0.02. The \
+              difference at late times is smaller than the noise of 10 runs, so claims about it use 100 runs, seeds 1 to 100.",
     beyond: false,
-    pieces,
-    start: |size, piece| Box::new(move || run(size, piece)),
+    tasks,
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
-/// (r, p): the paper's, and a tenth of both.
-const PATIENCE: [(f64, f64); 2] = [(0.1, 0.2), (0.01, 0.02)];
+/// (r, p): those of the paper, and a tenth of both.
+const FRUSTRATION: [(f64, f64); 2] = [(0.1, 0.2), (0.01, 0.02)];
 const N: usize = 50;
 
-/// Runs of the figure, as many as the paper has.
+/// Number of runs of the figure: that of the paper.
 fn runs(size: Size) -> usize {
     size.choose(10, 4)
 }
 
-/// Runs of the claims about the long run, those of the figure among them.
+/// Number of runs for the claims about late times; those of the figure are the first of them.
 fn long_runs(size: Size) -> usize {
     size.choose(100, 4)
 }
 
-/// End, s. The paper's plot ends at 100 s; it says that balance is not reached "even after a time much longer".
+/// End of a run, s. The paper's plot ends at 100 s, but the paper says that balance is not reached "even after a time
+/// much longer".
 fn until(size: Size) -> f64 {
     size.choose(300.0, 100.0)
 }
 
-fn pieces(size: Size) -> Vec<String> {
+fn tasks(size: Size) -> Vec<String> {
     let each = |&(r, p): &(f64, f64)| {
         (1..=long_runs(size)).map(move |seed| format!("run {seed} with r = {r}, p = {p}")).collect::<Vec<_>>()
     };
-    PATIENCE.iter().flat_map(each).collect()
+    FRUSTRATION.iter().flat_map(each).collect()
 }
 
 fn scenario(size: Size, (r, p): (f64, f64), seed: u64) -> Scenario {
@@ -65,10 +69,11 @@ fn scenario(size: Size, (r, p): (f64, f64), seed: u64) -> Scenario {
     scenario
 }
 
-/// ΔN from 60 s on and over the last 50 s; then, of a run of the figure, time, ΔN, flow; a row each half second.
-fn run(size: Size, piece: usize) -> TaskResult {
-    let (which, seed) = (piece / long_runs(size), piece % long_runs(size) + 1);
-    let scenario = scenario(size, PATIENCE[which], seed as u64);
+/// Mean ΔN from 60 s on and over the last 50 s; then, for a run of the figure, time, ΔN and flow with a row each half
+/// second.
+fn run(size: Size, task: usize) -> TaskResult {
+    let (which, seed) = (task / long_runs(size), task % long_runs(size) + 1);
+    let scenario = scenario(size, FRUSTRATION[which], seed as u64);
     let flow = Measurement::Flow { every: 0.5, window: 5.0, at: None };
     let (tables, _) = measured(&scenario, &[Measurement::Lanes { every: 0.5 }, flow]);
     let (time, imbalance) = (column(&tables[0], "time_s"), column(&tables[0], "imbalance"));
@@ -83,9 +88,10 @@ fn run(size: Size, piece: usize) -> TaskResult {
     TaskResult { columns }
 }
 
-/// E|2B − N| of a binomial B with N trials of probability 1/2: ΔN if every vehicle chose a lane by a coin.
+/// The mean ΔN if every vehicle chose its lane by tossing a coin: E|2B − N| of a binomial B with N trials of probability
+/// 1/2.
 pub(crate) fn random_imbalance(n: usize) -> f64 {
-    // Weights from the middle outwards, to keep them within range.
+    // Weights relative to the middle one, from the middle outwards; so they neither overflow nor underflow.
     let mut weight = 1.0;
     let (mut total, mut sum) = (0.0, 0.0);
     for k in n.div_ceil(2)..=n {
@@ -100,28 +106,29 @@ pub(crate) fn random_imbalance(n: usize) -> f64 {
 
 /// The runs of one (r, p).
 struct Group<'a> {
-    /// ΔN in the long run, of more runs than those of the figure.
+    /// Mean ΔN from 60 s on and over the last 50 s, from all runs.
     late: Estimate,
     last: Estimate,
+    /// Times, ΔN and flow of the runs of the figure.
     time: &'a [f64],
     imbalance: Vec<&'a [f64]>,
     flow: Vec<&'a [f64]>,
 }
 
 impl<'a> Group<'a> {
-    fn of(size: Size, pieces: &'a [TaskResult]) -> Self {
-        let long = |k: usize| Estimate::mean(&pieces.iter().map(|p| p.columns[0][k]).collect::<Vec<_>>());
-        let column = |k: usize| pieces[..runs(size)].iter().map(|p| p.columns[k].as_slice()).collect();
+    fn of(size: Size, results: &'a [TaskResult]) -> Self {
+        let long = |k: usize| Estimate::mean(&results.iter().map(|p| p.columns[0][k]).collect::<Vec<_>>());
+        let column = |k: usize| results[..runs(size)].iter().map(|p| p.columns[k].as_slice()).collect();
         Self {
             late: long(0),
             last: long(1),
-            time: &pieces[0].columns[1],
+            time: &results[0].columns[1],
             imbalance: column(2),
             flow: column(3),
         }
     }
 
-    /// Means of a run over the rows from `from` to `to`, with the interval over runs.
+    /// Mean over the times from `from` to `to` (s) and over the runs, with the interval over runs.
     fn average(&self, runs: &[&[f64]], from: f64, to: f64) -> Estimate {
         let rows: Vec<usize> =
             (0..self.time.len()).filter(|&k| self.time[k] >= from && self.time[k] <= to).collect();
@@ -129,7 +136,7 @@ impl<'a> Group<'a> {
         Estimate::mean(&runs.iter().map(each).collect::<Vec<_>>())
     }
 
-    /// The first time at which ΔN of a run is at most `most`, with the interval over runs; none if a run never is.
+    /// The first time at which ΔN is at most `most`, mean over the runs; NaN where a run never reaches it.
     fn reaches(&self, most: f64) -> Estimate {
         let first = |run: &&[f64]| run.iter().position(|&d| d <= most).map_or(f64::NAN, |k| self.time[k]);
         Estimate::mean(&self.imbalance.iter().map(first).collect::<Vec<_>>())
@@ -143,22 +150,22 @@ impl<'a> Group<'a> {
     }
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
-    let (paper, tenth) = pieces.split_at(long_runs(size));
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
+    let (paper, tenth) = results.split_at(long_runs(size));
     let (paper, tenth) = (Group::of(size, paper), Group::of(size, tenth));
     let how = |(r, p): (f64, f64)| format!("{} runs, seeds 1 to {0}, r = {r} /s, p = {p}", runs(size));
     let tables = vec![
         FigureTable::summary(
             "load-balance",
             paper.table(),
-            &scenario(size, PATIENCE[0], 1),
-            how(PATIENCE[0]),
+            &scenario(size, FRUSTRATION[0], 1),
+            how(FRUSTRATION[0]),
         ),
         FigureTable::summary(
             "load-balance-tenth",
             tenth.table(),
-            &scenario(size, PATIENCE[1], 1),
-            how(PATIENCE[1]),
+            &scenario(size, FRUSTRATION[1], 1),
+            how(FRUSTRATION[1]),
         ),
     ];
     let plot = Plot {
@@ -166,7 +173,7 @@ fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
         title: FIGURE.title.into(),
         description: format!(
             "Left: the difference between the lanes falls from 50 to a few vehicles, within seconds at the paper's r \
-             and p, more slowly at a tenth of both; chance alone would leave {:.1}. Right: the flow through both \
+             and p, more slowly at a tenth of both; if every vehicle chose its lane by chance, the mean would be {:.1}. Right: the flow through both \
              lanes rises as the difference falls, to about one vehicle a second.",
             random_imbalance(N)
         ),
@@ -191,6 +198,7 @@ fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     Outcome { tables, plot, claims: claims(size, &paper, &tenth) }
 }
 
+/// ΔN or flow of the groups over time, and beside them a constant for comparison.
 fn panel(title: &str, label: &str, groups: [&Group; 2], imbalance: bool, rule: f64) -> Panel {
     let name = if imbalance { "chance" } else { "equilibrium" };
     let x: Vec<f64> = (0..=100).map(f64::from).collect();
@@ -206,7 +214,7 @@ fn panel(title: &str, label: &str, groups: [&Group; 2], imbalance: bool, rule: f
             low: spread.low(),
             high: spread.high(),
         });
-        let (r, p) = PATIENCE[style];
+        let (r, p) = FRUSTRATION[style];
         layers.push(Layer::Curve { name: format!("r = {r}, p = {p}"), style, x, y: spread.mean });
     }
     let y = if imbalance { Axis::from_to(label, 0.0, 52.0) } else { Axis::from_to(label, 0.0, 1.4) };
@@ -239,7 +247,7 @@ fn claims(size: Size, paper: &Group, tenth: &Group) -> Vec<Claim> {
             "",
             Expected::AtMost(12.5),
             at_30,
-            "Balanced: a quarter of the 50 at the start, or less.",
+            "Balanced: at most a quarter of the 50 at the start.",
         ),
         claim(
             "ΔN is about 5 at 30 s",
@@ -318,6 +326,7 @@ fn claims(size: Size, paper: &Group, tenth: &Group) -> Vec<Claim> {
     ]
 }
 
+/// Pearson's correlation.
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let (mean_a, mean_b) = (mean(a), mean(b));
     let sum =
@@ -330,7 +339,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn chance_leaves_five_or_six() {
+    fn coin_tosses_leave_a_mean_difference_of_five_or_six() {
         assert_eq!(random_imbalance(1), 1.0);
         assert_eq!(random_imbalance(2), 1.0);
         assert_eq!(random_imbalance(3), 1.5);

@@ -1,13 +1,15 @@
-//! Growth against reaction time, in the simulation and in theory, and the critical reaction time against N.
+//! Growth against reaction time and the critical reaction time against N, each in the simulation and in theory.
 
+use super::claim::{Claim, Estimate, Expected, short};
 use super::cyclic::{Depths, Period, TAKEN, round_trip};
-use super::{Figure, FigureTable, Outcome, Size, Task, TaskResult, column, indicator, nudged};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{column, indicator, nudged};
+use super::task::{Size, Task, TaskResult};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::measurement::probe::Probe;
 use crate::numerics::bisection::Whole;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, short};
 use crate::scenario::driver::Driver;
 use crate::simulation::Simulation;
 use crate::stability::homogeneous::{HomogeneousRing, Time};
@@ -24,13 +26,15 @@ pub(super) const FIGURE: Figure = Figure {
               runs of 3000 s in steps of 0.01 s after a displacement of 1 mm, searched by bisection for the step at which \
               the longest wave begins to grow.",
     beyond: false,
-    pieces,
+    tasks,
     start,
     assemble,
 };
 
+/// Time step, s.
 const STEP: f64 = 0.01;
 
+/// Reaction times at which k is measured, s.
 fn reaction_times(size: Size) -> Vec<f64> {
     size.choose((0..=16).collect::<Vec<i32>>(), vec![0, 10, 13, 15, 16])
         .iter()
@@ -38,33 +42,36 @@ fn reaction_times(size: Size) -> Vec<f64> {
         .collect()
 }
 
+/// Numbers of vehicles for which the critical reaction time is searched.
 fn rings(size: Size) -> Vec<usize> {
     size.choose(vec![20, 30, 40, 50, 65, 80, 100, 133], vec![50])
 }
 
-fn pieces(size: Size) -> Vec<String> {
+fn tasks(size: Size) -> Vec<String> {
     let delays = reaction_times(size).into_iter().map(|d| format!("reaction time {d} s"));
     delays.chain(rings(size).iter().map(|n| format!("critical reaction time of {n} vehicles"))).collect()
 }
 
+/// The ring of 1 km with so many vehicles, in theory.
 fn ring(vehicles: usize) -> HomogeneousRing {
     HomogeneousRing { vehicles, slope: Driver::default().slope(1000.0 / vehicles as f64) }
 }
 
-fn start(size: Size, piece: usize) -> Box<dyn Task> {
+fn start(size: Size, task: usize) -> Box<dyn Task> {
     let delays = reaction_times(size);
-    if let Some(&delay) = delays.get(piece) {
+    if let Some(&delay) = delays.get(task) {
         return Box::new(move || TaskResult { columns: vec![growth(delay)] });
     }
     Box::new(Search {
-        vehicles: rings(size)[piece - delays.len()],
+        vehicles: rings(size)[task - delays.len()],
         until: size.choose(3000.0, 2000.0),
         delays: Whole::new(20, 160),
         run: None,
     })
 }
 
-/// k with its standard error, time of a collision, complete round trips, end of the run, upward crossings of vehicle 21.
+/// k of vehicle 21 with its standard error, time of the collision, number of complete round trips, number of upward
+/// crossings of vehicle 21.
 fn growth(reaction_time: f64) -> Vec<f64> {
     let scenario = nudged(reaction_time, 1.0, 300.0);
     let (depths, _, simulation) = Depths::measure(&scenario, Vec::new());
@@ -79,19 +86,20 @@ fn growth(reaction_time: f64) -> Vec<f64> {
     ]
 }
 
-/// Looks by bisection for the largest delay, in steps, at which the longest wave fades, and the next, at which it grows.
+/// The search by bisection for the largest delay, in steps, at which the longest wave fades; at the next one it grows.
 struct Search {
     vehicles: usize,
+    /// End of a run near the threshold, s.
     until: f64,
     /// Delays, in steps: at the lower end the wave fades, at the upper it grows.
     delays: Whole,
-    /// The run at the delay between the two.
+    /// The run that is going on, at the delay in the middle of the two.
     run: Option<(Simulation, Box<dyn Probe>)>,
 }
 
 impl Search {
     fn begin(&self, steps: usize) -> (Simulation, Box<dyn Probe>) {
-        // Far from the threshold a wave shows soon what it does.
+        // Far from the threshold growth or decay is clear after a shorter run.
         let until = if self.delays.fails - self.delays.holds > 16 { 1000.0 } else { self.until };
         let mut scenario = nudged(steps as f64 * STEP, 1e-3, until);
         scenario.vehicles = self.vehicles;
@@ -111,7 +119,7 @@ impl Search {
 }
 
 impl Task for Search {
-    /// The middle between the two, in steps.
+    /// The result is the threshold in steps: the middle of the last two delays.
     fn advance(&mut self, updates: u64) -> Option<TaskResult> {
         let mut steps = updates / self.vehicles as u64;
         while let Some(middle) = self.delays.middle() {
@@ -126,7 +134,7 @@ impl Task for Search {
                 probe.observe(&simulation);
             }
             let rate = column(&probe.table(), "growth_rate_per_s")[0];
-            // No rate: the wave had left the linear regime by the start of the fit.
+            // Without a rate the wave had left the linear regime before the fit began, so it grows.
             let grows = simulation.collision().is_some() || rate.is_nan() || rate > 0.0;
             self.delays.narrow(middle, !grows);
         }
@@ -134,9 +142,9 @@ impl Task for Search {
     }
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
     let delays = reaction_times(size);
-    let (scans, thresholds) = pieces.split_at(delays.len());
+    let (scans, thresholds) = results.split_at(delays.len());
     let values = |k: usize| scans.iter().map(|p| p.columns[0][k]).collect::<Vec<f64>>();
     let ring50 = ring(50);
     let fastest = |delay: f64, time| ring50.fastest(delay, time).map_or(f64::NAN, |m| m.root.re);
@@ -209,19 +217,26 @@ fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
     Outcome { tables, plot, claims: claims(&Scan { delays, scans }, &continuous, &critical, at_50) }
 }
 
+/// The results at all reaction times.
 struct Scan<'a> {
     delays: Vec<f64>,
     scans: &'a [TaskResult],
 }
 
 impl Scan<'_> {
+    /// k at every reaction time.
+    fn rates(&self) -> Vec<f64> {
+        self.scans.iter().map(|result| result.columns[0][0]).collect()
+    }
+
+    /// The numbers of [`growth`] at a reaction time.
     fn at(&self, delay: f64) -> &[f64] {
         let k =
             self.delays.iter().position(|d| (d - delay).abs() < 1e-9).expect("a reaction time of the scan");
         &self.scans[k].columns[0]
     }
 
-    /// The middle of the interval in which a rate changes its sign, and half its width.
+    /// The middle of the interval of reaction times in which a rate becomes positive, and half its width.
     fn sign_change(&self, rates: &[f64]) -> Estimate {
         let known: Vec<_> = self.delays.iter().zip(rates).filter(|r| !r.1.is_nan()).collect();
         known.windows(2).find(|w| *w[0].1 < 0.0 && *w[1].1 >= 0.0).map_or(Estimate::exact(f64::NAN), |w| {
@@ -318,20 +333,29 @@ fn eigenvalue_distance(vehicles: usize) -> Estimate {
     })
 }
 
+/// A claim about a critical reaction time, in seconds.
+fn critical_claim(claim: &str, paper: f64, tolerance: f64, ours: Estimate, method: &str) -> Claim {
+    Claim::new(ID, claim, "s", Expected::About(paper, tolerance), ours, method)
+}
+
 fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<Claim> {
-    let about = |claim: &str, paper, tolerance, ours, method: &str| {
-        Claim::new(ID, claim, "s", Expected::About(paper, tolerance), ours, method)
-    };
-    let k: Vec<f64> = scan.scans.iter().map(|p| p.columns[0][0]).collect();
-    let at_08 = scan.at(0.8);
-    let falls = |rates: &[f64]| {
-        let known: Vec<f64> = rates.iter().copied().filter(|r| !r.is_nan()).collect();
-        known.windows(2).filter(|w| w[1] <= w[0]).count() as f64
-    };
-    let sign_changes = |rates: &[f64]| {
-        let known: Vec<f64> = rates.iter().copied().filter(|r| !r.is_nan()).collect();
-        known.windows(2).filter(|w| (w[0] < 0.0) != (w[1] < 0.0)).count() as f64
-    };
+    let mut claims = threshold_claims(scan, found);
+    claims.extend(reaction_time_claims(scan, real_parts));
+    claims.extend(collision_claims(scan));
+    claims.extend(vehicle_count_claims(critical));
+    claims.push(Claim::new(
+        ID,
+        "the simulation is stable at 0.65 s and unstable at 0.75 s",
+        "",
+        Expected::About(1.0, 0.0),
+        indicator(scan.at(0.65)[0] < 0.0 && scan.at(0.75)[0] > 0.0),
+        "Sign of k of vehicle 21 over three round trips; 1 means that both hold.",
+    ));
+    claims
+}
+
+/// The critical reaction time at N = 50, found in three ways.
+fn threshold_claims(scan: &Scan, found: f64) -> Vec<Claim> {
     let tolerance = "tolerance 0.05 s, the interval at which the paper looks.";
     let eigenvalues = eigenvalue_distance(50);
     vec![
@@ -348,23 +372,23 @@ fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<
             ),
         )
         .or("N = 133", eigenvalue_distance(133)),
-        about(
+        critical_claim(
             "critical reaction time τ at N = 50, linear theory",
             0.7,
             0.05,
             Estimate::exact(ring(50).critical(Time::Continuous)),
             &format!("τ = (π/N)/(2c·sin(π/N)); {tolerance}"),
         ),
-        about(
+        critical_claim(
             "critical reaction time τ at N = 50, simulation: where k changes sign",
             0.7,
             0.05,
-            scan.sign_change(&k),
+            scan.sign_change(&scan.rates()),
             &format!(
                 "Vehicle 21, three round trips, reaction times 0.05 s apart as in the paper; {tolerance}"
             ),
         ),
-        about(
+        critical_claim(
             "critical reaction time τ at N = 50, simulation: where the longest wave begins to grow",
             0.7,
             0.05,
@@ -373,25 +397,41 @@ fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<
                 "Displacement 1 mm, Fourier mode 1 from 500 s on, bisection over steps of 0.01 s; {tolerance}"
             ),
         ),
+    ]
+}
+
+/// Stability falls with the reaction time.
+fn reaction_time_claims(scan: &Scan, real_parts: &[f64]) -> Vec<Claim> {
+    let known = |rates: &[f64]| rates.iter().copied().filter(|r| !r.is_nan()).collect::<Vec<f64>>();
+    let falls = known(real_parts).windows(2).filter(|w| w[1] <= w[0]).count();
+    let sign_changes = known(&scan.rates()).windows(2).filter(|w| (w[0] < 0.0) != (w[1] < 0.0)).count();
+    vec![
         Claim::new(
             ID,
-            "a longer reaction time is less stable, simulation: times that k changes its sign from 0 to 0.8 s",
+            "a longer reaction time is less stable, simulation: number of times that k changes its sign from 0 to 0.8 s",
             "",
             Expected::About(1.0, 0.0),
-            Estimate::exact(sign_changes(&k)),
+            Estimate::exact(sign_changes as f64),
             "Vehicle 21, three round trips; from stable to unstable and never back.",
         ),
         Claim::new(
             ID,
-            "a longer reaction time is less stable, theory: falls of the largest real part from one reaction time to the next",
+            "a longer reaction time is less stable, theory: number of times that the largest real part falls from one reaction time to the next",
             "",
             Expected::AtMost(0.0),
-            Estimate::exact(falls(real_parts)),
+            Estimate::exact(falls as f64),
             format!(
                 "Characteristic roots of all modes at {} reaction times from 0 to 0.8 s.",
                 real_parts.len()
             ),
         ),
+    ]
+}
+
+/// The collision at Δ = 0.8 s.
+fn collision_claims(scan: &Scan) -> Vec<Claim> {
+    let at_08 = scan.at(0.8);
+    vec![
         Claim::new(
             ID,
             "collision within one cycle at Δ = 0.8 s: cycles before it",
@@ -407,21 +447,27 @@ fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<
         .or("upward crossings of v∞ by vehicle 21, at most 12 counted", Estimate::exact(at_08[4])),
         Claim::new(
             ID,
-            "no k can be had at Δ = 0.8 s: complete round trips before the collision",
+            "no k can be fitted at Δ = 0.8 s: complete round trips before the collision",
             "",
             Expected::AtMost(1.0),
             Estimate::exact(at_08[3]),
             "A fit needs two; a round trip of the disturbance is a period.",
         ),
+    ]
+}
+
+/// The critical reaction time against the number of vehicles, and its limit. `critical` begins at N = 2.
+fn vehicle_count_claims(critical: &[f64]) -> Vec<Claim> {
+    vec![
         Claim::new(
             ID,
-            "τ falls with the number of vehicles: rises from one N to the next",
+            "τ falls with the number of vehicles: number of times that it rises from one N to the next",
             "",
             Expected::AtMost(0.0),
             Estimate::exact(critical.windows(2).filter(|w| w[1] >= w[0]).count() as f64),
             "Linear theory at every N from 2 to 133.",
         ),
-        about(
+        critical_claim(
             "τ at N = 133, near the densest ring",
             0.5,
             0.005,
@@ -439,14 +485,6 @@ fn claims(scan: &Scan, real_parts: &[f64], critical: &[f64], found: f64) -> Vec<
                         .critical(Time::Continuous),
             ),
             "Linear theory at a slope of λ and a million vehicles; tolerance 1e-9.",
-        ),
-        Claim::new(
-            ID,
-            "the simulation is stable at 0.65 s and unstable at 0.75 s",
-            "",
-            Expected::About(1.0, 0.0),
-            indicator(scan.at(0.65)[0] < 0.0 && scan.at(0.75)[0] > 0.0),
-            "Sign of k of vehicle 21 over three round trips; 1 means that both hold.",
         ),
     ]
 }

@@ -1,20 +1,19 @@
-//! A small disturbance at three reaction times: speeds of five vehicles, and flow over space and time.
+//! A small disturbance at three reaction times: speeds of five vehicles, and maps of flow and speed over space and time.
 
+use super::claim::{Claim, Estimate, Expected, short};
 use super::cyclic::{Choice, Depths, TAKEN, equilibrium_speed, round_trip};
-use super::{
-    Figure, FigureTable, Outcome, Size, TaskResult, column, indicator, measured, nudged, numbers, refilled,
-};
+use super::figure::{Figure, FigureTable, Outcome};
+use super::shared::{column, indicator, measured, nudged, numbers, refilled};
+use super::task::{Size, TaskResult};
+use super::wave_analysis::{SETTLING, WaveAnalysis};
 use crate::format::table::{Column, Table};
 use crate::measurement::Measurement;
 use crate::measurement::probe::Probe;
 use crate::numerics::exp::exp;
-use crate::numerics::least_squares;
 use crate::plot::{Axis, Layer, Panel, Plot};
-use crate::reproduction::claim::{Claim, Estimate, Expected, short};
 use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
 use crate::simulation::Simulation;
-use std::f64::consts::PI;
 
 const ID: &str = "waves";
 
@@ -28,21 +27,21 @@ pub(super) const FIGURE: Figure = Figure {
               less the equilibrium speed, which shows also what is too small to change a count of vehicles; blue is \
               slower. The run at 0.75 s ends in a collision.",
     beyond: false,
-    pieces,
-    start: |size, piece| Box::new(move || run(size, piece)),
+    tasks,
+    start: |size, task| Box::new(move || run(size, task)),
     assemble,
 };
 
-/// Δ of the panels, s, and the growth rates that the paper gives.
+/// Δ of the columns of panels, s, and the cyclic growth rates that the paper gives.
 const CASES: [(f64, f64); 3] = [(0.0, -1.073), (0.5, -0.790), (0.75, 0.443)];
-/// Other delays at which the time of the collision is taken, s: one step less and one more than 0.75 s.
+/// Further delays for which the time of the collision is measured, s: one step shorter and one longer than 0.75 s.
 const NEIGHBOURS: [f64; 2] = [0.74, 0.76];
-/// Cells of the map of speed.
-const BINS: usize = 100;
-/// δ, s.
+/// Cells of the map of speed along the road.
+const CELLS: usize = 100;
+/// δ, the window of the flow, s.
 const WINDOW: f64 = 18.63;
 
-fn pieces(_: Size) -> Vec<String> {
+fn tasks(_: Size) -> Vec<String> {
     let panels = CASES.iter().map(|c| format!("reaction time {} s", c.0));
     panels.chain(NEIGHBOURS.iter().map(|d| format!("collision at {d} s"))).collect()
 }
@@ -56,14 +55,16 @@ fn measurements(size: Size) -> [Measurement; 3] {
     [
         Measurement::Speeds { every: 0.5, vehicles: None },
         Measurement::FlowMap { every: size.choose(1.0, 5.0), bins, window: WINDOW },
-        Measurement::SpeedMap { every: 1.0, bins: BINS, lane: 1 },
+        Measurement::SpeedMap { every: 1.0, bins: CELLS, lane: 1 },
     ]
 }
 
-/// A panel: columns of the two tables, then what [`Waves`] saw, the time of the collision, and all [`Depths`].
-fn run(size: Size, piece: usize) -> TaskResult {
-    let Some(&(reaction_time, _)) = CASES.get(piece) else {
-        let scenario = scenario(size, NEIGHBOURS[piece - CASES.len()]);
+/// Of a reaction time of the figure: the columns of the three tables; then velocity, its uncertainty, mode and congested
+/// stretches; the deviation of speeds; the time of the collision; and all [`Depths`]. Of a further delay: the time of
+/// the collision.
+fn run(size: Size, task: usize) -> TaskResult {
+    let Some(&(reaction_time, _)) = CASES.get(task) else {
+        let scenario = scenario(size, NEIGHBOURS[task - CASES.len()]);
         let (_, simulation) = measured(&scenario, &[]);
         return TaskResult { columns: vec![vec![collision_time(&simulation)]] };
     };
@@ -73,7 +74,7 @@ fn run(size: Size, piece: usize) -> TaskResult {
     let (depths, tables, simulation) = Depths::measure(&scenario, probes);
     let [speeds, flow, map] = &tables[..] else { unreachable!("three measurements") };
     let mut columns: Vec<_> = [speeds, flow, map].into_iter().flat_map(numbers).collect();
-    let waves = Waves::of(&column(map, "speed_m_per_s"), BINS, scenario.length);
+    let waves = WaveAnalysis::of(&column(map, "speed_m_per_s"), CELLS, scenario.length);
     columns.push(vec![
         waves.velocity.value,
         waves.velocity.uncertainty,
@@ -86,64 +87,12 @@ fn run(size: Size, piece: usize) -> TaskResult {
     TaskResult { columns }
 }
 
+/// Time of the collision, s; NaN without one.
 fn collision_time(simulation: &Simulation) -> f64 {
     simulation.collision().map_or(f64::NAN, |c| c.time)
 }
 
-/// What a map of speeds, a row a second, tells of waves.
-struct Waves {
-    /// Velocity on the road of the Fourier mode with the largest amplitude from 20 s on, m/s.
-    velocity: Estimate,
-    /// That mode.
-    mode: usize,
-    /// Standard deviation of speed round the ring, row by row, m/s.
-    deviation: Vec<f64>,
-    /// Congested stretches in the last row: slower than the mean by a tenth of the largest deviation.
-    congested: usize,
-}
-
-impl Waves {
-    fn of(speeds: &[f64], bins: usize, length: f64) -> Self {
-        let rows: Vec<&[f64]> = speeds.chunks_exact(bins).collect();
-        let means: Vec<f64> = rows.iter().map(|r| r.iter().sum::<f64>() / bins as f64).collect();
-        let deviation = rows.iter().zip(&means).map(|(row, mean)| {
-            (row.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / bins as f64).sqrt()
-        });
-        // A_q = Σ_x v(x)·e^{−2πiqx/L}: a wave v(x − ut) turns its phase by −2πqu/L a second.
-        let spectrum = |row: &[f64], q: usize| {
-            row.iter().enumerate().fold((0.0, 0.0), |(re, im), (k, v)| {
-                let angle = 2.0 * PI * (q * k % bins) as f64 / bins as f64;
-                (re + v * libm::cos(angle), im - v * libm::sin(angle))
-            })
-        };
-        let late = &rows[rows.len().min(20)..];
-        let modes: Vec<Vec<(f64, f64)>> =
-            (1..=12).map(|q| late.iter().map(|row| spectrum(row, q)).collect()).collect();
-        let size = |mode: &Vec<(f64, f64)>| mode.iter().map(|&(re, im)| libm::hypot(re, im)).sum::<f64>();
-        let strongest = (0..12).max_by(|&a, &b| size(&modes[a]).total_cmp(&size(&modes[b]))).unwrap_or(0);
-        let mode = strongest + 1;
-        let mut turned = 0.0;
-        let mut phases: Vec<(f64, f64)> = Vec::new();
-        for (k, pair) in modes[strongest].windows(2).enumerate() {
-            let ((a, b), (c, d)) = (pair[0], pair[1]);
-            turned += libm::atan2(a * d - b * c, a * c + b * d);
-            phases.push((k as f64, turned));
-        }
-        let velocity = least_squares::line(&phases).map_or(Estimate::exact(f64::NAN), |line| {
-            let metres = length / (2.0 * PI * mode as f64);
-            Estimate::new(-line.slope * metres, 1.96 * line.slope_error * metres)
-        });
-        let congested = rows.last().map_or(0, |row| {
-            let mean = means[rows.len() - 1];
-            let largest = row.iter().map(|v| (v - mean).abs()).fold(0.0, f64::max);
-            let slow = |k: usize| row[k % bins] < mean - 0.1 * largest;
-            (0..bins).filter(|&k| slow(k + 1) && !slow(k)).count()
-        });
-        Self { velocity, mode, deviation: deviation.collect(), congested }
-    }
-}
-
-/// A piece of a panel, taken apart again.
+/// The task result of a reaction time, taken apart.
 struct Case<'a> {
     reaction_time: f64,
     tables: [Table; 3],
@@ -155,10 +104,10 @@ struct Case<'a> {
 }
 
 impl<'a> Case<'a> {
-    fn of(size: Size, case: usize, piece: &'a TaskResult) -> Self {
+    fn of(size: Size, case: usize, result: &'a TaskResult) -> Self {
         let scenario = scenario(size, CASES[case].0);
         let [speeds, flow, map] = measurements(size);
-        let (speed_columns, rest) = piece.columns.split_at(6);
+        let (speed_columns, rest) = result.columns.split_at(6);
         let (flow_columns, rest) = rest.split_at(3);
         let (map_columns, rest) = rest.split_at(3);
         Self {
@@ -175,9 +124,9 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// How the deviation of speeds has changed from 20 s to the end, as the logarithm of the ratio.
+    /// Logarithm of the ratio of the deviation of speeds at the end to that at 20 s.
     fn change(&self) -> f64 {
-        match (self.deviation.get(20), self.deviation.last()) {
+        match (self.deviation.get(SETTLING), self.deviation.last()) {
             (Some(&early), Some(&late)) => libm::log(late / early),
             _ => f64::NAN,
         }
@@ -228,7 +177,8 @@ impl<'a> Case<'a> {
     }
 }
 
-/// A map in long form, time along x: name, width, ends of the cells in time, values.
+/// The data of a map with time along x, from a table with a row for each time and place: name, number of times, ends of
+/// the cells in time, values place by place.
 fn map_of(
     table: &Table,
     name: &str,
@@ -240,10 +190,10 @@ fn map_of(
     let bins = times.iter().take_while(|&&t| t == times[0]).count();
     let rows = values.len() / bins;
     let every = if rows > 1 { times[bins] - times[0] } else { 1.0 };
-    // From a row for each time to a row for each place.
-    let turned =
+    // The table has a row of places for each time; the map needs a row of times for each place.
+    let transposed =
         (0..bins).flat_map(|b| (0..rows).map(move |r| r * bins + b)).map(|i| of(values[i])).collect();
-    (words.into(), rows, (times[0] - 0.5 * every, times[times.len() - 1] + 0.5 * every), turned)
+    (words.into(), rows, (times[0] - 0.5 * every, times[times.len() - 1] + 0.5 * every), transposed)
 }
 
 fn coloured(
@@ -259,10 +209,10 @@ fn equilibrium_flow() -> f64 {
     Driver::default().flow(0.05)
 }
 
-fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
+fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
     let cases: Vec<Case> =
-        pieces[..CASES.len()].iter().enumerate().map(|(k, piece)| Case::of(size, k, piece)).collect();
-    let neighbours: Vec<f64> = pieces[CASES.len()..].iter().map(|p| p.columns[0][0]).collect();
+        results[..CASES.len()].iter().enumerate().map(|(k, result)| Case::of(size, k, result)).collect();
+    let neighbours: Vec<f64> = results[CASES.len()..].iter().map(|p| p.columns[0][0]).collect();
     let mut tables = Vec::new();
     for case in &cases {
         let scenario = scenario(size, case.reaction_time);
@@ -286,9 +236,9 @@ fn assemble(size: Size, pieces: &[TaskResult]) -> Outcome {
         id: ID.into(),
         title: FIGURE.title.into(),
         description: "Nine panels. Above, speeds of five vehicles: at reaction times of 0 and 0.5 s the oscillation \
-                      that the nudge makes dies away, at 0.75 s it grows until two vehicles collide. Middle, flow over \
+                      after the displacement fades, at 0.75 s it grows until two vehicles collide. Middle, flow over \
                       time and place: only at 0.75 s does it change by whole vehicles. Below, speed over time and place: \
-                      slow stripes run upstream in all three and fade in the first two; in the third they multiply."
+                      stripes of slow traffic travel upstream in all three; in the first two they fade, in the third their number grows."
             .into(),
         columns: 3,
         panels: rows.into_iter().flatten().collect(),
@@ -329,7 +279,7 @@ fn growth_table(cases: &[Case]) -> Table {
     ])
 }
 
-/// How far k may be from the paper's for other ways to cut periods and to fit.
+/// Allowed distance of k from the paper's, for details of cutting periods and of fitting.
 const GROWTH_TOLERANCE: f64 = 0.02;
 
 fn claims(cases: &[Case], neighbours: &[f64]) -> Vec<Claim> {
@@ -375,7 +325,7 @@ fn claims(cases: &[Case], neighbours: &[f64]) -> Vec<Claim> {
         let deviation = |row: Option<&f64>| row.map_or_else(|| "none".into(), |&d| short(d));
         let spread = format!(
             "Standard deviation of speed round the ring: {} m/s at 20 s, {} m/s at the end of the run ({} s).",
-            deviation(case.deviation.get(20)),
+            deviation(case.deviation.get(SETTLING)),
             deviation(case.deviation.last()),
             short(case.deviation.len() as f64 - 1.0),
         );
@@ -432,34 +382,35 @@ fn claims(cases: &[Case], neighbours: &[f64]) -> Vec<Claim> {
     claims
 }
 
+/// Whether vehicle 1 starts slower than in equilibrium and vehicle N faster.
 fn first_speeds() -> Estimate {
     let simulation = Simulation::new(&nudged(0.0, 1.0, 1.0)).expect("scenarios of figures are valid");
     let v = equilibrium_speed();
     indicator(simulation.speed(0) < v && simulation.speed(simulation.vehicles() - 1) > v)
 }
 
-/// Whether one choice gives all three rates.
+/// Whether a single choice of vehicle, period and fit gives all three rates of the paper.
 fn one_choice(cases: &[Case]) -> Claim {
     let mut best = (f64::INFINITY, TAKEN);
     let mut single = [0; 3];
     let all = Choice::all();
     for &choice in &all {
-        let far: Vec<f64> = cases
+        let distances: Vec<f64> = cases
             .iter()
             .zip(&CASES)
             .map(|(case, c)| case.depths.growth(choice).map_or(f64::INFINITY, |k| (k.rate - c.1).abs()))
             .collect();
-        for (count, distance) in single.iter_mut().zip(&far) {
+        for (count, distance) in single.iter_mut().zip(&distances) {
             *count += usize::from(*distance <= GROWTH_TOLERANCE);
         }
-        let worst = far.iter().copied().fold(0.0, f64::max);
-        if worst < best.0 {
-            best = (worst, choice);
+        let largest = distances.iter().copied().fold(0.0, f64::max);
+        if largest < best.0 {
+            best = (largest, choice);
         }
     }
     Claim::new(
         ID,
-        "one choice of vehicle, period and fit gives all three growth rates: smallest over the choices of the largest distance",
+        "one choice of vehicle, period and fit gives all three growth rates: largest distance from the three, for the best choice",
         "",
         Expected::AtMost(GROWTH_TOLERANCE),
         Estimate::exact(best.0),
@@ -480,34 +431,16 @@ mod tests {
     use super::*;
     use crate::reproduction::claim::ClaimVerdict;
 
-    /// A wave put in by hand, three crests moving upstream at 5 m/s.
-    #[test]
-    fn the_velocity_of_a_known_wave_is_found() {
-        let (bins, length) = (200, 1000.0);
-        let speeds: Vec<f64> = (0..60)
-            .flat_map(|t| {
-                (0..bins).map(move |k| {
-                    let x = f64::from(k) * length / f64::from(bins);
-                    10.0 + libm::sin(2.0 * PI * 3.0 * (x + 5.0 * f64::from(t)) / length)
-                })
-            })
-            .collect();
-        let waves = Waves::of(&speeds, 200, length);
-        assert_eq!((waves.mode, waves.congested), (3, 3));
-        assert!((waves.velocity.value + 5.0).abs() < 1e-9, "{:?}", waves.velocity);
-        assert!(waves.deviation.iter().all(|d| (d - 0.5_f64.sqrt()).abs() < 1e-9));
-    }
-
     #[test]
     fn a_verdict_flips_with_its_value() {
-        let pieces: Vec<TaskResult> = (0..5).map(|k| run(Size::Small, k)).collect();
-        let upstream = |pieces: &[TaskResult]| {
-            let claims = assemble(Size::Small, pieces).claims;
+        let results: Vec<TaskResult> = (0..5).map(|k| run(Size::Small, k)).collect();
+        let upstream = |results: &[TaskResult]| {
+            let claims = assemble(Size::Small, results).claims;
             let claim = claims.into_iter().find(|c| c.claim.contains("upstream at Δ = 0.75"));
             claim.expect("the claim").verdict()
         };
-        assert_eq!(upstream(&pieces), ClaimVerdict::Agrees);
-        let mut perturbed = pieces;
+        assert_eq!(upstream(&results), ClaimVerdict::Agrees);
+        let mut perturbed = results;
         perturbed[2].columns[12][0] *= -1.0;
         assert_eq!(upstream(&perturbed), ClaimVerdict::Differs);
     }

@@ -19,7 +19,7 @@ pub fn figures() -> String {
             "title": f.title,
             "caption": f.caption,
             "beyond": f.beyond,
-            "pieces": f.pieces(Size::Full).len(),
+            "pieces": f.tasks(Size::Full).len(),
         })
     };
     Value::from(FIGURES.iter().map(one).collect::<Vec<_>>()).to_string()
@@ -35,7 +35,7 @@ impl FigureWork {
     #[wasm_bindgen(constructor)]
     pub fn new(id: &str, piece: usize) -> Result<FigureWork, JsError> {
         let figure = Figure::named(id).map_err(refusal)?;
-        let count = figure.pieces(Size::Full).len();
+        let count = figure.tasks(Size::Full).len();
         if piece >= count {
             let allowed = format!("0 to {} for {id}", count - 1);
             return Err(refusal(Error::new("piece", piece, allowed)));
