@@ -42,3 +42,9 @@ pub mod web;
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 pub struct Readme;
+
+pub use error::Error;
+pub use format::table::Table;
+pub use measurement::Measurement;
+pub use scenario::Scenario;
+pub use simulation::Simulation;

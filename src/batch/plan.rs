@@ -1,12 +1,12 @@
 //! Which runs a batch consists of.
 
-use super::parameter_values::ParameterValues;
 use crate::error::{Error, quoted};
 use crate::format::table::Table;
 use crate::measurement::Measurement;
 use crate::measurement::provenance::{PLAN, header_line, with_header};
 use crate::scenario::Scenario;
 use crate::scenario::action::VehicleSelector;
+use crate::scenario::parameter_values::ParameterValues;
 use crate::scenario::parameters::RoadField;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

@@ -47,7 +47,7 @@ fn define() -> Command {
                 .value_name("NAME=VALUES")
                 .action(ArgAction::Append)
                 .help(
-                    "ParameterValues a parameter: reaction-time=0:0.8:0.05 (from:to:by), lanes=1,2,4; may be repeated, \
+                    "Vary a parameter: reaction-time=0:0.8:0.05 (from:to:by), lanes=1,2,4; may be repeated, \
                      for all combinations",
                 ),
         )

@@ -7,14 +7,15 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::error::Error;
 use ringroad::measurement::provenance::theory_to_csv;
 use ringroad::scenario::Scenario;
+use ringroad::scenario::parameter_values::ParameterValues;
 use ringroad::stability::discrete_roots::DiscreteRoot;
 use ringroad::stability::homogeneous::Time;
 use ringroad::stability::report::{ModeRoot, Report, leading_factors, leading_roots};
-use ringroad::stability::stability_diagram::{Sweep, sweep};
 use ringroad::stability::stabilizing_drivers::{StabilizingDrivers, parse_changes, stabilizing_drivers};
 use ringroad::stability::stable_ranges::{
     first_jammed, most_vehicles, stable_sensitivities, stable_vehicles,
 };
+use ringroad::stability::sweep::sweep;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -99,7 +100,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let scenario = scenario(matches)?;
     let output = Output::new(matches)?;
     if let Some(text) = matches.get_one::<String>("sweep") {
-        let asked: Sweep = text.parse().map_err(|e: Error| e.within("--sweep"))?;
+        let asked = ParameterValues::sweep(text).map_err(|e| e.within("--sweep"))?;
         let table = sweep(&scenario, &asked)?;
         output.write(&theory_to_csv(&table, &scenario, &format!("stability --sweep {text}")))?;
         return Ok(ExitCode::SUCCESS);

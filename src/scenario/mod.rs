@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`parameters`] | the one table of parameters |
 //! | [`value`] | the values of a parameter, and the kinds of parameters |
+//! | [`parameter_values`] | a parameter with the values that a batch or a sweep gives it |
 //! | [`driver`] | a driver: speed against headway, and the equilibrium of a lane |
 //! | [`action`] | timed actions, driver overrides, vehicle selectors |
 //! | [`start`] | where the vehicles are at t = 0 |
@@ -13,7 +14,7 @@
 //! | `validation` | whether a scenario can be run |
 //!
 //! ```
-//! use ringroad::scenario::Scenario;
+//! use ringroad::Scenario;
 //!
 //! let scenario = Scenario::from_json(r#"{"vehicles": 20, "driver": {"reaction_time": 0.5}}"#).unwrap();
 //! assert_eq!((scenario.vehicles, scenario.length), (20, 1000.0));
@@ -26,6 +27,7 @@ pub mod action;
 pub mod driver;
 mod json;
 pub mod link;
+pub mod parameter_values;
 pub mod parameters;
 pub mod presets;
 pub mod start;

@@ -6,7 +6,7 @@
 //! beside those two types and name every field, so a field without a parameter does not compile.
 //!
 //! ```
-//! use ringroad::scenario::Scenario;
+//! use ringroad::Scenario;
 //! use ringroad::scenario::parameters::Parameter;
 //! use ringroad::scenario::value::Value;
 //!
@@ -124,7 +124,7 @@ impl Serialize for Parameter {
             object.serialize_entry("max", &range.max)?;
         }
         object.serialize_entry("slider", &self.slider)?;
-        object.serialize_entry("whole", &matches!(self.kind, Kind::Whole(_)))?;
+        object.serialize_entry("whole", &self.kind.is_whole())?;
         match self.kind {
             Kind::Number(_) | Kind::Whole(_) => {}
             Kind::NumberOrNone(_) => object.serialize_entry("none", &true)?,

@@ -9,7 +9,8 @@
 //! | [`heterogeneous`] | drivers that differ: roots by continuation, counted by the argument principle |
 //! | [`stabilizing_drivers`] | how many drivers of another kind calm a ring |
 //! | [`stable_ranges`] | which numbers of vehicles, which sensitivities are stable |
-//! | [`stability_diagram`] | critical reaction times and growth rates over the number of vehicles; sweeps |
+//! | [`stability_diagram`] | critical reaction times and growth rates over the number of vehicles |
+//! | [`sweep`] | what theory says while a parameter is varied |
 //! | [`report`] | everything the theory says of a lane |
 //! | [`summary`] | the few numbers of the page's sentence |
 //!
@@ -26,5 +27,6 @@ pub mod stability_diagram;
 pub mod stabilizing_drivers;
 pub mod stable_ranges;
 pub mod summary;
+pub mod sweep;
 
 pub use num_complex::Complex64;
