@@ -216,7 +216,7 @@ fn what_makes_no_sense_is_refused_before_anything_runs() {
     let last = Scenario { seed: (1 << 53) - 3, ..scenario() };
     holds(message(Plan::new(last, vec![], 10, outcome())), &["seed", "9007199254740991"]);
     // Shares are drawn by the seed; a vehicle of 45 m fits in front of none.
-    let long = Scenario { exceptions: vec!["50%:vehicle-length=45".parse().unwrap()], ..scenario() };
+    let long = Scenario { overrides: vec!["50%:vehicle-length=45".parse().unwrap()], ..scenario() };
     holds(message(Plan::new(long, vec![], 2, outcome())), &["length"]);
 
     let lanes = Measurement::named("lanes").unwrap();

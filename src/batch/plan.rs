@@ -88,8 +88,8 @@ impl Plan {
 
     fn check_cells(&self) -> Result<(), Error> {
         // Who belongs to a share depends on the seed, and with it whether a start fits.
-        let shares = self.scenario.exceptions.iter().map(|e| e.who);
-        let shares = shares.chain(self.scenario.actions.iter().map(|a| a.who));
+        let shares = self.scenario.overrides.iter().map(|e| e.vehicles);
+        let shares = shares.chain(self.scenario.actions.iter().map(|a| a.vehicles));
         let seeds = if shares.into_iter().any(|who| matches!(who, VehicleSelector::Share(_))) {
             self.runs
         } else {

@@ -51,7 +51,7 @@ fn scenario(size: Size, aggressive: bool, seed: u64) -> Scenario {
         ..Scenario::default()
     };
     if aggressive {
-        scenario.exceptions.push("1:sensitivity=2".parse().expect("the grammar of exceptions"));
+        scenario.overrides.push("1:sensitivity=2".parse().expect("the grammar of exceptions"));
     }
     scenario
 }

@@ -57,7 +57,7 @@ impl Point {
             time_step: 0.05,
             until: size.choose(500.0, 100.0),
             seed,
-            exceptions: vec![exception.parse().expect("the grammar of exceptions")],
+            overrides: vec![exception.parse().expect("the grammar of exceptions")],
             ..Scenario::default()
         }
     }

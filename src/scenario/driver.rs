@@ -1,15 +1,26 @@
-//! A driver: the law of speed against headway, its inverse and slope, and what follows from it in
-//! equilibrium: the common speed and the fundamental diagram.
+//! A driver: the law of speed against headway, its inverse and slope, and what follows from it in equilibrium: the common
+//! speed and the fundamental diagram. The headway is the distance from the centre of a vehicle to the centre of the next one
+//! ahead, in m.
 //!
 //! The law is Newell's (Operations Research 9, 1961):
 //! `v(h) = max(V − V·exp(−(λ/V)(h − d)), 0)`.
+//!
+//! ```
+//! use ringroad::scenario::driver::{Driver, equilibrium};
+//!
+//! let driver = Driver::default();
+//! assert_eq!(driver.speed(driver.min_headway), 0.0);
+//! assert!((driver.headway(driver.speed(20.0)) - 20.0).abs() < 1e-12);
+//! let uniform = equilibrium(&[driver; 50], 1000.0).unwrap();
+//! assert_eq!((uniform.density, uniform.speed), (0.05, driver.speed(20.0)));
+//! ```
 
 use crate::error::Error;
 use crate::numerics::exp::exp;
 use crate::scenario::parameters::{DriverField, Field, PARAMETERS};
 use crate::scenario::value::Value;
 
-/// One driver with the vehicle that he or she drives.
+/// A driver together with the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Driver {
     /// V, m/s.
@@ -98,11 +109,12 @@ impl Driver {
 
     /// Speed (m/s) at headway `h` (m).
     pub fn speed(&self, h: f64) -> f64 {
-        let gap_factor = exp(-(self.sensitivity / self.max_speed) * (h - self.min_headway));
-        (self.max_speed - self.max_speed * gap_factor).max(0.0)
+        let deficit = exp(-(self.sensitivity / self.max_speed) * (h - self.min_headway));
+        (self.max_speed - self.max_speed * deficit).max(0.0)
     }
 
-    /// Headway (m) at which the speed is `v` (m/s), `0 ≤ v < V`; the smallest moving headway, d, at `v = 0`.
+    /// Headway (m) at which the speed is `v` (m/s), `0 ≤ v < V`: the inverse of [`Self::speed`]. At `v = 0`, where every
+    /// headway up to d has that speed, it is d.
     pub fn headway(&self, v: f64) -> f64 {
         self.min_headway - self.max_speed / self.sensitivity * libm::log1p(-v / self.max_speed)
     }
@@ -142,7 +154,7 @@ impl Driver {
     }
 }
 
-/// The top of the fundamental diagram.
+/// The largest flow of the fundamental diagram, and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capacity {
     /// ρ*, veh/m.
@@ -168,10 +180,10 @@ pub struct Equilibrium {
 pub fn equilibrium(drivers: &[Driver], length: f64) -> Option<Equilibrium> {
     let first = drivers.first()?;
     let density = drivers.len() as f64 / length;
-    let alike = |d: &Driver| {
+    let same_law = |d: &Driver| {
         (d.max_speed, d.sensitivity, d.min_headway) == (first.max_speed, first.sensitivity, first.min_headway)
     };
-    let speed = if drivers.iter().all(alike) {
+    let speed = if drivers.iter().all(same_law) {
         first.speed(length / drivers.len() as f64)
     } else {
         let needed = |v: f64| drivers.iter().map(|d| d.headway(v)).sum::<f64>();
@@ -214,7 +226,7 @@ mod tests {
 
     /// Values of the model's specification.
     #[test]
-    fn the_fundamental_diagram_has_the_known_top() {
+    fn the_largest_flow_is_that_of_the_paper() {
         let top = Driver::default().capacity();
         assert!((top.flow * 3600.0 - 2065.0).abs() < 1.0, "{top:?}");
         assert!((top.density * 1000.0 - 34.0).abs() < 0.5, "{top:?}");
@@ -225,14 +237,14 @@ mod tests {
     }
 
     #[test]
-    fn equal_and_different_drivers_share_one_speed_in_equilibrium() {
-        let equal = equilibrium(&[Driver::default(); 50], 1000.0).unwrap();
-        assert!((equal.flow - 0.5368).abs() < 5e-5, "{equal:?}");
+    fn homogeneous_and_heterogeneous_drivers_have_one_speed_in_equilibrium() {
+        let homogeneous = equilibrium(&[Driver::default(); 50], 1000.0).unwrap();
+        assert!((homogeneous.flow - 0.5368).abs() < 5e-5, "{homogeneous:?}");
         let mut drivers = vec![Driver::default(); 50];
         drivers[3].sensitivity = 2.0;
         drivers[9].max_speed = 25.0;
-        let mixed = equilibrium(&drivers, 1000.0).unwrap();
-        let total: f64 = drivers.iter().map(|d| d.headway(mixed.speed)).sum();
+        let heterogeneous = equilibrium(&drivers, 1000.0).unwrap();
+        let total: f64 = drivers.iter().map(|d| d.headway(heterogeneous.speed)).sum();
         assert!((total - 1000.0).abs() < 1e-9);
         let jammed = equilibrium(&[Driver::default(); 140], 1000.0).unwrap();
         assert_eq!(jammed.speed, 0.0);

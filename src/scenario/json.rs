@@ -43,7 +43,7 @@ impl Scenario {
         object.insert("version", FORMAT);
         object.insert("start", self.start.to_string());
         object.insert("driver", driver);
-        object.insert("exceptions", self.exceptions.iter().map(DriverOverride::to_string).collect::<Json>());
+        object.insert("exceptions", self.overrides.iter().map(DriverOverride::to_string).collect::<Json>());
         object.insert("actions", self.actions.iter().map(Action::to_string).collect::<Json>());
         object.into()
     }
@@ -67,7 +67,7 @@ impl Scenario {
                         scenario.set(parameter, parameter.read(value)?)?;
                     }
                 }
-                "exceptions" => scenario.exceptions = read_texts("exceptions", value)?,
+                "exceptions" => scenario.overrides = read_texts("exceptions", value)?,
                 "actions" => scenario.actions = read_texts("actions", value)?,
                 name => {
                     let parameter = OF_SCENARIO.find(name)?;

@@ -480,7 +480,7 @@ mod tests {
     #[test]
     fn the_least_stable_lane_speaks() {
         let mut scenario = Scenario { vehicles: 101, lanes: 3, ..scenario(0.9) };
-        scenario.exceptions = vec!["36-68:reaction-time=0.95".parse().unwrap()];
+        scenario.overrides = vec!["36-68:reaction-time=0.95".parse().unwrap()];
         let report = Report::of(&scenario);
         assert_eq!((report.lane, report.vehicles), (2, 33));
         scenario.start = Start::OneLane(2);
@@ -490,13 +490,13 @@ mod tests {
     #[test]
     fn drivers_that_differ_have_a_scale() {
         let mut scenario = scenario(0.75);
-        scenario.exceptions = vec!["1-4:reaction-time=0".parse().unwrap()];
+        scenario.overrides = vec!["1-4:reaction-time=0".parse().unwrap()];
         let report = Report::of(&scenario);
         assert!(!report.stable && !report.equal_drivers);
         assert_eq!(report.all_roots_found, Some(true));
         let scale = report.critical_scale_discrete.unwrap();
         assert!((0.95..1.0).contains(&scale), "{scale}");
-        scenario.exceptions = vec!["11-15:reaction-time=0".parse().unwrap()];
+        scenario.overrides = vec!["11-15:reaction-time=0".parse().unwrap()];
         assert!(Report::of(&scenario).stable);
     }
 
@@ -504,7 +504,7 @@ mod tests {
     #[test]
     fn roots_of_a_picture_and_the_report_agree() {
         let mut mixed = scenario(0.75);
-        mixed.exceptions = vec!["1-4:reaction-time=0.3".parse().unwrap()];
+        mixed.overrides = vec!["1-4:reaction-time=0.3".parse().unwrap()];
         for scenario in [scenario(0.5), scenario(0.75), mixed] {
             let lane = lanes_of(&scenario).remove(0);
             let roots = roots_of_lane(&lane, 1000.0, 0.01, 1, 200);
