@@ -391,6 +391,6 @@ fn it_can_be_cancelled_within_a_run_and_between_runs() {
     let long = Plan::new(long, vec![], 1, Measurement::named("outcome").unwrap()).unwrap();
     assert_eq!(long.run(0, &mut |_| false).unwrap(), None);
     // A refusal by whoever takes the runs stops it, too.
-    let refusal = || Error::new("disk", "full", "room");
+    let refusal = || Error::conflict("disk", "full", "room");
     assert_eq!(run_all(&plan, &numbers, Some(1), &|_| true, &mut |_| Err(refusal())), Err(refusal()));
 }

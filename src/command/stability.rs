@@ -107,12 +107,9 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     }
     let roots = match matches.get_one::<String>("roots") {
         None => None,
-        Some(text) => Some(
-            text.parse()
-                .ok()
-                .filter(|k| (1..=100).contains(k))
-                .ok_or_else(|| Error::new("--roots", format!("“{text}”"), "a whole number from 1 to 100"))?,
-        ),
+        Some(text) => Some(text.parse().ok().filter(|k| (1..=100).contains(k)).ok_or_else(|| {
+            Error::malformed("--roots", format!("“{text}”"), "a whole number from 1 to 100")
+        })?),
     };
     let answer = answer(&scenario, matches.get_one("calm-with"), roots)?;
     let text = if matches.get_flag("json") {

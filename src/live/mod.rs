@@ -591,7 +591,7 @@ impl Live {
         let mut scenario = self.simulation.scenario().clone();
         if index >= scenario.actions.len() {
             let allowed = format!("a place from 1 to {}", scenario.actions.len());
-            return Err(Error::new("actions", index + 1, allowed));
+            return Err(Error::out_of_range("actions", index + 1, allowed));
         }
         scenario.actions.remove(index);
         Self::new(&scenario)

@@ -67,8 +67,9 @@ impl TaskResult {
 
     /// Reads such an array.
     pub fn from_flat(flat: &[f64]) -> Result<Self, Error> {
-        let wrong =
-            || Error::new("piece", "an array of another form", "an array that a piece of a figure gave");
+        let wrong = || {
+            Error::malformed("piece", "an array of another form", "an array that a piece of a figure gave")
+        };
         let (&count, rest) = flat.split_first().ok_or_else(wrong)?;
         let count = count as usize;
         if rest.len() < count {
@@ -196,7 +197,7 @@ impl Figure {
     pub fn named(id: &str) -> Result<&'static Self, Error> {
         FIGURES.iter().find(|f| f.id == id).ok_or_else(|| {
             let ids: Vec<_> = FIGURES.iter().map(|f| f.id).collect();
-            Error::new("figure", quoted(id), format!("{} or all", ids.join(", ")))
+            Error::unknown("figure", quoted(id), format!("{} or all", ids.join(", ")))
         })
     }
 
@@ -232,7 +233,7 @@ impl Figure {
         if pieces.len() == needed {
             Ok((self.assemble)(size, pieces))
         } else {
-            Err(Error::new("pieces", pieces.len(), format!("{needed} for {}", self.id)))
+            Err(Error::out_of_range("pieces", pieces.len(), format!("{needed} for {}", self.id)))
         }
     }
 

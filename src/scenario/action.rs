@@ -81,7 +81,7 @@ impl VehicleSelector {
         } else {
             let allowed =
                 format!("a vehicle from 1 to {vehicles}, a range such as 3-7, “all”, or 0% to 100%");
-            Err(Error::new("vehicle", self, allowed))
+            Err(Error::out_of_range("vehicle", self, allowed))
         }
     }
 }
@@ -102,7 +102,7 @@ impl FromStr for VehicleSelector {
     fn from_str(text: &str) -> Result<Self, Error> {
         let text = text.trim();
         let wrong = || {
-            Error::new(
+            Error::malformed(
                 "vehicle",
                 quoted(text),
                 "a number, a range such as 3-7, “all”, or a share such as 10%",
@@ -129,11 +129,15 @@ impl Effect {
         match self {
             Self::Set(field, value) => field.parameter().check(value),
             Self::Brake(seconds) if (0.0..=1e7).contains(&seconds) => Ok(()),
-            Self::Brake(seconds) => Err(Error::new("brake", seconds, "a number from 0 to 10000000 s")),
-            Self::Nudge(metres) if metres.abs() <= length => Ok(()),
-            Self::Nudge(metres) => {
-                Err(Error::new("nudge", metres, format!("a number from -{length} to {length} m, one lap")))
+            Self::Brake(seconds) => {
+                Err(Error::out_of_range("brake", seconds, "a number from 0 to 10000000 s"))
             }
+            Self::Nudge(metres) if metres.abs() <= length => Ok(()),
+            Self::Nudge(metres) => Err(Error::out_of_range(
+                "nudge",
+                metres,
+                format!("a number from -{length} to {length} m, one lap"),
+            )),
         }
     }
 }
@@ -152,19 +156,19 @@ impl fmt::Display for Effect {
 fn assignment<'a>(what: &'static str, text: &'a str) -> Result<(&'a str, &'a str), Error> {
     let (name, value) = text
         .split_once('=')
-        .ok_or_else(|| Error::new(what, quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
+        .ok_or_else(|| Error::malformed(what, quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
     Ok((name.trim(), value))
 }
 
 fn number(name: &'static str, text: &str) -> Result<f64, Error> {
-    text.trim().parse().map_err(|_| Error::new(name, quoted(text), "a number"))
+    text.trim().parse().map_err(|_| Error::malformed(name, quoted(text), "a number"))
 }
 
 /// A field of a driver with its value, of which only the kind is checked.
 fn setting(names: Lookup, name: &str, text: &str) -> Result<(DriverField, Value), Error> {
     let parameter = names.find(name)?;
     let Field::Driver(field) = parameter.field else { unreachable!("the look-up is among those of drivers") };
-    let wrong = || Error::new(name.to_owned(), quoted(text), parameter.kind.words());
+    let wrong = || Error::malformed(name.to_owned(), quoted(text), parameter.kind.words());
     parameter.kind.parse(text).map(|value| (field, value)).ok_or_else(wrong)
 }
 
@@ -192,7 +196,7 @@ impl fmt::Display for Action {
 impl Action {
     /// `WHO:EFFECT[,EFFECT …]`, at a time in s.
     pub fn at(at: f64, text: &str) -> Result<Self, Error> {
-        let form = || Error::new("action", quoted(text), "WHO:EFFECT, such as 7:brake=3");
+        let form = || Error::malformed("action", quoted(text), "WHO:EFFECT, such as 7:brake=3");
         let (vehicles, effects) =
             text.split_once(':').filter(|(vehicles, _)| !vehicles.contains('=')).ok_or_else(form)?;
         Self::of(at, vehicles, effects).map_err(|e| e.within(quoted(text)))
@@ -224,7 +228,11 @@ impl FromStr for Action {
     type Err = Error;
     fn from_str(text: &str) -> Result<Self, Error> {
         let form = || {
-            Error::new("action", quoted(text), "at=SECONDS:WHO:EFFECT, such as at=30:all:reaction-time=0.75")
+            Error::malformed(
+                "action",
+                quoted(text),
+                "at=SECONDS:WHO:EFFECT, such as at=30:all:reaction-time=0.75",
+            )
         };
         let mut parts = text.trim().splitn(3, ':');
         let (Some(at), Some(vehicles), Some(effects)) = (parts.next(), parts.next(), parts.next()) else {
@@ -247,7 +255,7 @@ impl FromStr for DriverOverride {
     type Err = Error;
     fn from_str(text: &str) -> Result<Self, Error> {
         let (vehicles, values) = text.split_once(':').ok_or_else(|| {
-            Error::new("driver", quoted(text), "WHO:PARAMETER=VALUE, such as 12:sensitivity=2")
+            Error::malformed("driver", quoted(text), "WHO:PARAMETER=VALUE, such as 12:sensitivity=2")
         })?;
         Ok(Self {
             vehicles: vehicles.parse().map_err(|e: Error| e.within(quoted(text)))?,

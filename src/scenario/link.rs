@@ -46,7 +46,7 @@ enum Entry {
 
 impl Entry {
     fn read(text: &str) -> Result<Self, Error> {
-        let form = || Error::new("link", quoted(text), "NAME=VALUE, such as reaction-time=0.75");
+        let form = || Error::malformed("link", quoted(text), "NAME=VALUE, such as reaction-time=0.75");
         let (name, value) = text.split_once('=').ok_or_else(form)?;
         let value = decoded(value)?;
         match name {
@@ -153,7 +153,8 @@ fn encoded(text: &str) -> String {
 }
 
 fn decoded(text: &str) -> Result<String, Error> {
-    let wrong = || Error::new("link", quoted(text), "percent-encoded text, such as at%3D40%3A7%3Abrake%3D3");
+    let wrong =
+        || Error::malformed("link", quoted(text), "percent-encoded text, such as at%3D40%3A7%3Abrake%3D3");
     let mut bytes = Vec::new();
     let mut rest = text.as_bytes();
     while let Some((&first, tail)) = rest.split_first() {

@@ -74,7 +74,7 @@ impl ParameterValues {
     pub fn new(parameter: &'static Parameter, values: Vec<f64>) -> Result<Self, Error> {
         if parameter == RoadField::Seed.parameter() {
             let allowed = "any other parameter: seeds follow from the number of runs";
-            return Err(Error::new("vary", quoted("seed"), allowed));
+            return Err(Error::conflict("vary", quoted("seed"), allowed));
         }
         Self::checked(parameter, values, Use::Batch)
     }
@@ -86,7 +86,7 @@ impl ParameterValues {
     }
 
     fn checked(parameter: &'static Parameter, values: Vec<f64>, of: Use) -> Result<Self, Error> {
-        let refuse = |value: String, allowed: String| Err(Error::new(of.name(), value, allowed));
+        let refuse = |value: String, allowed: String| Err(Error::conflict(of.name(), value, allowed));
         let name = parameter.hyphenated();
         if values.is_empty() {
             return refuse(quoted(&format!("{name}=")), format!("{name} with at least one value"));
@@ -144,7 +144,8 @@ impl FromStr for ParameterValues {
 
 /// The parameter and its values, ranges written out; whether they are allowed is not checked.
 fn read(text: &str, of: Use) -> Result<(&'static Parameter, Vec<f64>), Error> {
-    let (name, items) = text.split_once('=').ok_or_else(|| Error::new(of.name(), quoted(text), of.form()))?;
+    let (name, items) =
+        text.split_once('=').ok_or_else(|| Error::malformed(of.name(), quoted(text), of.form()))?;
     let parameter = of.names().find(name.trim())?;
     let mut values = Vec::new();
     for item in items.split(',') {
@@ -152,7 +153,7 @@ fn read(text: &str, of: Use) -> Result<(&'static Parameter, Vec<f64>), Error> {
         values.extend(expand(item.trim(), parameter, of).map_err(place)?);
         if values.len() > MOST_VALUES {
             let allowed = format!("at most {MOST_VALUES} values of one parameter");
-            return Err(Error::new(of.name(), quoted(text), allowed));
+            return Err(Error::too_large(of.name(), quoted(text), allowed));
         }
     }
     Ok((parameter, values))
@@ -160,7 +161,7 @@ fn read(text: &str, of: Use) -> Result<(&'static Parameter, Vec<f64>), Error> {
 
 /// The values of an item: one value, or those of a range.
 fn expand(item: &str, parameter: &Parameter, of: Use) -> Result<Vec<f64>, Error> {
-    let refuse = |allowed: &'static str| Error::new("values", quoted(item), allowed);
+    let refuse = |allowed: &'static str| Error::malformed("values", quoted(item), allowed);
     let parts: Vec<_> = item.split(':').map(str::trim).collect();
     let (from, to, by) = match parts[..] {
         [value] => {
@@ -189,28 +190,27 @@ fn expand(item: &str, parameter: &Parameter, of: Use) -> Result<Vec<f64>, Error>
         return Ok(vec![Decimal { mantissa: first, exponent }.value()]);
     }
     if step == 0 || (last - first).signum() * step.signum() < 0 {
-        return Err(match by {
-            Some(_) => refuse("a range FROM:TO:BY whose steps lead from FROM to TO"),
-            None => {
-                Error::new("range", quoted(item), format!("{to}:{from}, or a step downwards: {from}:{to}:-1"))
-            }
+        return Err(if by.is_some() {
+            refuse("a range FROM:TO:BY whose steps lead from FROM to TO")
+        } else {
+            let allowed = format!("{to}:{from}, or a step downwards: {from}:{to}:-1");
+            Error::malformed("range", quoted(item), allowed)
         });
     }
     let steps = (last - first) / step;
     if steps >= MOST_VALUES as i128 {
-        return Err(match by {
-            Some(_) => refuse("a range with longer steps: it has too many values"),
-            None => {
-                let allowed = format!("at most {MOST_VALUES} values, or a larger step: {from}:{to}:STEP");
-                Error::new("range", quoted(item), allowed)
-            }
+        return Err(if by.is_some() {
+            Error::too_large("values", quoted(item), "a range with longer steps: it has too many values")
+        } else {
+            let allowed = format!("at most {MOST_VALUES} values, or a larger step: {from}:{to}:STEP");
+            Error::too_large("range", quoted(item), allowed)
         });
     }
     if let Some(by) = by.filter(|_| whole && steps > 0) {
         let value = Decimal { mantissa: step, exponent }.value();
         if value != value.trunc() {
             let allowed = format!("a whole step: {} is a whole number", parameter.hyphenated());
-            return Err(Error::new("step", by, allowed));
+            return Err(Error::out_of_range("step", by, allowed));
         }
     }
     Ok((0..=steps).map(|k| Decimal { mantissa: first + k * step, exponent }.value()).collect())

@@ -136,5 +136,5 @@ pub fn preset(name: &str) -> Result<Preset, Error> {
         return Ok(all.swap_remove(k));
     }
     let names: Vec<_> = all.iter().map(|p| p.name).collect();
-    Err(Error::new("preset", quoted(name), names.join(", ")))
+    Err(Error::unknown("preset", quoted(name), names.join(", ")))
 }

@@ -36,7 +36,7 @@ impl Scenario {
     /// Whether an action is allowed by itself, without regard to other actions.
     pub(crate) fn check_action(&self, action: &Action) -> Result<(), Error> {
         if !(0.0..=1e7).contains(&action.at) {
-            return Err(Error::new("at", action.at, "a number from 0 to 10000000 s"));
+            return Err(Error::out_of_range("at", action.at, "a number from 0 to 10000000 s"));
         }
         action.vehicles.check(self.vehicles)?;
         action.effects.iter().try_for_each(|effect| effect.check(self.length))
@@ -80,7 +80,7 @@ impl Scenario {
                 "at most {most} s for {} vehicles in steps of {} s: the history must fit 2 GiB",
                 self.vehicles, self.time_step
             );
-            return Err(Error::new("reaction-time", longest, allowed));
+            return Err(Error::too_large("reaction-time", longest, allowed));
         }
         Ok(())
     }
@@ -89,7 +89,7 @@ impl Scenario {
         let n = self.vehicles;
         match self.start {
             Start::OneLane(lane) if lane == 0 || lane > self.lanes => {
-                return Err(Error::new(
+                return Err(Error::conflict(
                     "start",
                     quoted(&self.start.to_string()),
                     format!("a lane from 1 to {}", self.lanes),
@@ -97,7 +97,7 @@ impl Scenario {
             }
             Start::OneLane(_) => {}
             _ if self.lanes > n => {
-                return Err(Error::new(
+                return Err(Error::conflict(
                     "lanes",
                     self.lanes,
                     format!("at most {n}: more lanes than vehicles can fill"),
@@ -105,7 +105,7 @@ impl Scenario {
             }
             Start::Staggered if !n.is_multiple_of(self.lanes) => {
                 let allowed = format!("a number that {} lanes divide, for a staggered start", self.lanes);
-                return Err(Error::new("vehicles", n, allowed));
+                return Err(Error::conflict("vehicles", n, allowed));
             }
             _ => {}
         }
@@ -124,7 +124,7 @@ impl Scenario {
                         self.length,
                         most(needed / count as f64)
                     );
-                    return Err(Error::new("vehicles", n, allowed));
+                    return Err(Error::conflict("vehicles", n, allowed));
                 }
             } else if count > 0 {
                 let headway = self.length / count as f64;
@@ -137,7 +137,7 @@ impl Scenario {
                             lane + 1,
                             (self.length / contact).ceil() - 1.0
                         );
-                        return Err(Error::new("vehicles", n, allowed));
+                        return Err(Error::conflict("vehicles", n, allowed));
                     }
                 }
             }

@@ -618,7 +618,7 @@ impl<S: Sampler> Simulation<S> {
     pub fn act(&mut self, mut action: Action) -> Result<(), Error> {
         action.at = self.scenario.time_of(self.step);
         if self.collision.is_some() {
-            return Err(Error::new("action", quoted(&action.to_string()), "none after a collision"));
+            return Err(Error::conflict("action", quoted(&action.to_string()), "none after a collision"));
         }
         self.scenario.check_action(&action)?;
         let index = self.scenario.actions.len();
