@@ -18,7 +18,7 @@ mod cases {
     fn scenario(vehicles: usize, exceptions: &[&str]) -> Scenario {
         let mut scenario = Scenario { vehicles, ..Scenario::default() };
         scenario.driver.reaction_time = 0.75;
-        scenario.exceptions = exceptions.iter().map(|text| text.parse().unwrap()).collect();
+        scenario.overrides = exceptions.iter().map(|text| text.parse().unwrap()).collect();
         scenario
     }
 

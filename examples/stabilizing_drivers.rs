@@ -20,7 +20,7 @@ pub fn by_theory(scenario: &Scenario) -> Result<Option<usize>, Error> {
 pub fn by_run(scenario: &Scenario, quick: usize) -> Result<f64, Error> {
     let mut scenario = scenario.clone();
     if quick > 0 {
-        scenario.exceptions.push(format!("1-{quick}:reaction-time=0").parse()?);
+        scenario.overrides.push(format!("1-{quick}:reaction-time=0").parse()?);
     }
     let last = scenario.vehicles;
     scenario.actions.push(format!("at=0:{last}:nudge=0.01").parse()?);

@@ -64,7 +64,7 @@ fn a_step_allocates_nothing() {
     scenario.actions.push("at=0:1:nudge=1".parse().unwrap());
     assert_eq!(measure(&scenario).0, 0, "one lane");
 
-    scenario.exceptions.push("20%:sensitivity=1.5,reaction-time=0.2".parse().unwrap());
+    scenario.overrides.push("20%:sensitivity=1.5,reaction-time=0.2".parse().unwrap());
     assert_eq!(measure(&scenario).0, 0, "mixed drivers");
 
     scenario = Scenario { vehicles: 50, lanes: 2, time_step: 0.05, start: Start::OneLane(1), ..scenario };

@@ -216,7 +216,7 @@ fn what_makes_no_sense_is_refused_before_anything_runs() {
     let last = Scenario { seed: (1 << 53) - 3, ..scenario() };
     holds(message(Plan::new(last, vec![], 10, outcome())), &["seed", "9007199254740991"]);
     // Shares are drawn by the seed; a vehicle of 45 m fits in front of none.
-    let long = Scenario { exceptions: vec!["50%:vehicle-length=45".parse().unwrap()], ..scenario() };
+    let long = Scenario { overrides: vec!["50%:vehicle-length=45".parse().unwrap()], ..scenario() };
     holds(message(Plan::new(long, vec![], 2, outcome())), &["length"]);
 
     let lanes = Measurement::named("lanes").unwrap();
@@ -391,6 +391,6 @@ fn it_can_be_cancelled_within_a_run_and_between_runs() {
     let long = Plan::new(long, vec![], 1, Measurement::named("outcome").unwrap()).unwrap();
     assert_eq!(long.run(0, &mut |_| false).unwrap(), None);
     // A refusal by whoever takes the runs stops it, too.
-    let refusal = || Error::new("disk", "full", "room");
+    let refusal = || Error::conflict("disk", "full", "room");
     assert_eq!(run_all(&plan, &numbers, Some(1), &|_| true, &mut |_| Err(refusal())), Err(refusal()));
 }

@@ -35,7 +35,7 @@ fn an_undisturbed_ring_stays_equal_to_the_last_bit() {
 fn the_fast_form_of_the_speed_law_gives_the_law() {
     let mut scenario = Scenario { vehicles: 40, start: Start::Random, seed: 3, ..Scenario::default() };
     scenario.driver.reaction_time = 0.3;
-    scenario.exceptions =
+    scenario.overrides =
         vec!["1-9:sensitivity=1.7,max-speed=33".parse().unwrap(), "20:min-headway=9".parse().unwrap()];
     let mut simulation = Simulation::new(&scenario).unwrap();
     let (mut moving, mut compared) = (0, 0);

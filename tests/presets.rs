@@ -14,7 +14,7 @@ fn end(name: &str) -> Simulation {
 }
 
 #[test]
-fn every_preset_runs_and_only_the_phantom_jam_collides() {
+fn every_preset_runs_and_only_phantom_jam_ends_in_a_collision() {
     for preset in presets() {
         let simulation = end(preset.name);
         assert_eq!(simulation.collision().is_some(), preset.name == "phantom-jam", "{}", preset.name);
@@ -59,7 +59,7 @@ fn the_stable_ring_holds_126_vehicles() {
 
 /// "Lower r and p: the lanes balance later, and with fewer lane changes", in the mean over ten seeds.
 #[test]
-fn calmer_drivers_balance_later_with_fewer_changes() {
+fn smaller_frustration_parameters_balance_later_with_fewer_changes() {
     let mean = |frustration: Option<f64>| {
         let (mut time, mut changes) = (0.0, 0.0);
         for seed in 1..=10 {
@@ -79,9 +79,12 @@ fn calmer_drivers_balance_later_with_fewer_changes() {
         }
         (time, changes)
     };
-    let (as_it_is, calm) = (mean(None), mean(Some(0.02)));
-    println!("time to balance (s), lane changes: {as_it_is:?}, calm {calm:?}");
-    assert!(calm.0 > 1.5 * as_it_is.0 && calm.1 < 0.75 * as_it_is.1, "{as_it_is:?} {calm:?}");
+    let (preset_values, smaller) = (mean(None), mean(Some(0.02)));
+    println!("time to balance (s), lane changes: {preset_values:?}, with smaller r and p {smaller:?}");
+    assert!(
+        smaller.0 > 1.5 * preset_values.0 && smaller.1 < 0.75 * preset_values.1,
+        "{preset_values:?} {smaller:?}"
+    );
 }
 
 #[test]

@@ -235,7 +235,7 @@ fn different_drivers_share_an_equilibrium() {
         let scenario = Scenario {
             length,
             until: 0.0,
-            exceptions: vec!["1-10:sensitivity=2".parse().unwrap(), "5-20:max-speed=25".parse().unwrap()],
+            overrides: vec!["1-10:sensitivity=2".parse().unwrap(), "5-20:max-speed=25".parse().unwrap()],
             ..Scenario::default()
         };
         let t = table(&scenario, r#"{"table":"equilibrium"}"#);
@@ -350,7 +350,7 @@ fn lanes_and_drivers_add_up() {
         time_step: 0.05,
         until: 60.0,
         start: Start::OneLane(1),
-        exceptions: vec!["1-5:sensitivity=2".parse().unwrap()],
+        overrides: vec!["1-5:sensitivity=2".parse().unwrap()],
         ..Scenario::default()
     };
     let lanes = table(&scenario, r#"{"table":"lanes"}"#);

@@ -66,7 +66,7 @@ fn checked_step(simulation: &mut Simulation) {
     let lost = (0..n).any(|j| simulation.headway(j) <= 0.0);
     let mut lane: Vec<usize> = (0..n).map(|j| simulation.lane(j)).collect();
     let positions: Vec<f64> = (0..n).map(|j| simulation.position(j)).collect();
-    let gaps: Vec<f64> = (0..n).map(|j| simulation.driver(j).min_headway).collect();
+    let min_headways: Vec<f64> = (0..n).map(|j| simulation.driver(j).min_headway).collect();
     simulation.step();
     assert!(!lost || simulation.collision().is_some(), "an order lost without a collision");
     let mut changed = vec![false; n];
@@ -75,7 +75,10 @@ fn checked_step(simulation: &mut Simulation) {
             Event::LaneChange { vehicle, from, to, frustration } => {
                 assert!(!lost && frustration > 0.0 && lane[vehicle] == from && from.abs_diff(to) == 1);
                 for i in (0..n).filter(|&i| lane[i] == to) {
-                    assert!(apart(positions[i], positions[vehicle], length) > gaps[vehicle] - 1e-9 * length);
+                    assert!(
+                        apart(positions[i], positions[vehicle], length)
+                            > min_headways[vehicle] - 1e-9 * length
+                    );
                 }
                 lane[vehicle] = to;
                 changed[vehicle] = true;
@@ -98,13 +101,13 @@ fn checked_step(simulation: &mut Simulation) {
     check_order(simulation);
 }
 
-/// Going from leader to leader one comes round once, by one lap, and meets everyone in the lane.
+/// Following the leaders from any vehicle leads back to it after one lap, past every vehicle of the lane.
 fn check_order(simulation: &Simulation) {
     let n = simulation.vehicles();
     for (lane, &count) in simulation.vehicles_per_lane().iter().enumerate() {
-        let members: Vec<usize> = (0..n).filter(|&j| simulation.lane(j) == lane).collect();
-        assert_eq!(members.len(), count);
-        let Some(&first) = members.first() else { continue };
+        let in_lane: Vec<usize> = (0..n).filter(|&j| simulation.lane(j) == lane).collect();
+        assert_eq!(in_lane.len(), count);
+        let Some(&first) = in_lane.first() else { continue };
         let (mut j, mut round, mut met) = (first, 0.0, 0);
         loop {
             assert_eq!(simulation.follower(simulation.leader(j)), j);
@@ -161,7 +164,7 @@ proptest! {
             let step = simulation.step_index();
             for (action, other) in live.iter().filter(|(a, _): &&(Action, _)| scenario.steps(a.at) == step) {
                 // Some are done again, with something else done to the same vehicles in between.
-                let again = other.iter().flat_map(|o| [Action { who: action.who, ..o.clone() }, action.clone()]);
+                let again = other.iter().flat_map(|o| [Action { vehicles: action.vehicles, ..o.clone() }, action.clone()]);
                 for action in [action.clone()].into_iter().chain(again) {
                     let before = bits(&simulation);
                     let refused = simulation.act(action).is_err();
@@ -220,11 +223,11 @@ proptest! {
         mut scenario in scenarios(1..=1),
         vehicles in prop_oneof![Just(None), (2..1500_usize).prop_map(Some)],
         delay in prop_oneof![Just(None), (0.05..1.2).prop_map(Some)],
-        equal in prop::bool::weighted(0.8),
+        homogeneous in prop::bool::weighted(0.8),
         pauses in prop::collection::vec(0.0..1.0, 0..6),
     ) {
-        if equal {
-            scenario.exceptions.clear();
+        if homogeneous {
+            scenario.overrides.clear();
         }
         if let Some(vehicles) = vehicles {
             scenario.length *= vehicles as f64 / scenario.vehicles as f64;

@@ -55,7 +55,7 @@ fn session() -> impl Strategy<Value = (Scenario, Vec<(u64, String)>)> {
         })
         .prop_map(|(mut scenario, exceptions, planned, mut by_hand, reaction_time)| {
             scenario.driver.reaction_time = reaction_time;
-            scenario.exceptions = exceptions;
+            scenario.overrides = exceptions;
             scenario.actions =
                 planned.iter().map(|(at, what)| format!("at={at}:{what}").parse().unwrap()).collect();
             by_hand.sort_by_key(|&(step, _)| step);

@@ -134,7 +134,7 @@ fn heterogeneous(vehicles: usize, reaction_time: f64, exceptions: &[String]) -> 
     let mut scenario =
         Scenario { vehicles, length: 20.0 * vehicles as f64, until: 400.0, ..Scenario::default() };
     scenario.driver.reaction_time = reaction_time;
-    scenario.exceptions = exceptions.iter().map(|text| text.parse().unwrap()).collect();
+    scenario.overrides = exceptions.iter().map(|text| text.parse().unwrap()).collect();
     let drivers = scenario.drivers();
     let speed = equilibrium(&drivers, scenario.length).unwrap().speed;
     let mut displacement = 0.0;

@@ -13,21 +13,19 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | [`parameter_values`] | the values that a parameter takes |
 //! | [`plan`] | which runs there are |
 //! | [`run`] | computing them, one or all |
 //! | [`rows`] | a row a run |
 //! | [`summary`] | what the runs of a cell say together |
 //! | [`record`] | finished runs as text: to continue, to spread and to merge |
 
-pub mod parameter_values;
 pub mod plan;
 pub mod record;
 pub mod rows;
 pub mod run;
 pub mod summary;
 
-pub use parameter_values::ParameterValues;
+pub use crate::scenario::parameter_values::ParameterValues;
 pub use plan::Plan;
 pub use record::{Header, Shard};
 pub use run::{Run, run_all};

@@ -1,12 +1,12 @@
 //! Which runs a batch consists of.
 
-use super::parameter_values::ParameterValues;
 use crate::error::{Error, quoted};
 use crate::format::table::Table;
 use crate::measurement::Measurement;
 use crate::measurement::provenance::{PLAN, header_line, with_header};
 use crate::scenario::Scenario;
 use crate::scenario::action::VehicleSelector;
+use crate::scenario::parameter_values::ParameterValues;
 use crate::scenario::parameters::RoadField;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -60,7 +60,11 @@ impl Plan {
             let parameter = varied.parameter();
             if vary[..i].iter().any(|v| v.parameter() == parameter) {
                 let name = parameter.hyphenated();
-                return Err(Error::new("vary", quoted(&name), "every parameter once, with all its values"));
+                return Err(Error::conflict(
+                    "vary",
+                    quoted(&name),
+                    "every parameter once, with all its values",
+                ));
             }
             scenario.set(parameter, varied.values()[0])?;
         }
@@ -72,13 +76,13 @@ impl Plan {
 
     fn check_size(&self) -> Result<(), Error> {
         if self.runs == 0 {
-            return Err(Error::new("runs", 0, "at least one run of every cell"));
+            return Err(Error::out_of_range("runs", 0, "at least one run of every cell"));
         }
         let cells = self.vary.iter().map(|v| v.values().len() as f64).product::<f64>();
         let total = cells * self.runs as f64;
         if total > MOST_RUNS as f64 {
             let value = format!("{cells} cells of {} runs, {total} runs in all", self.runs);
-            return Err(Error::new("batch", value, format!("at most {MOST_RUNS} runs")));
+            return Err(Error::too_large("batch", value, format!("at most {MOST_RUNS} runs")));
         }
         RoadField::Seed
             .parameter()
@@ -88,8 +92,8 @@ impl Plan {
 
     fn check_cells(&self) -> Result<(), Error> {
         // Who belongs to a share depends on the seed, and with it whether a start fits.
-        let shares = self.scenario.exceptions.iter().map(|e| e.who);
-        let shares = shares.chain(self.scenario.actions.iter().map(|a| a.who));
+        let shares = self.scenario.overrides.iter().map(|e| e.vehicles);
+        let shares = shares.chain(self.scenario.actions.iter().map(|a| a.vehicles));
         let seeds = if shares.into_iter().any(|who| matches!(who, VehicleSelector::Share(_))) {
             self.runs
         } else {
@@ -111,7 +115,7 @@ impl Plan {
         if memory > MOST_MEMORY {
             const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
             let allowed = format!("at most {} GiB: measure less often, or less", MOST_MEMORY / GIB);
-            return Err(Error::new("rows of all runs", format!("{:.1} GiB", memory / GIB), allowed));
+            return Err(Error::too_large("rows of all runs", format!("{:.1} GiB", memory / GIB), allowed));
         }
         Ok(())
     }
@@ -128,7 +132,7 @@ impl Plan {
             return Ok(());
         }
         let allowed = "a table that has the same columns in every cell, such as overview";
-        Err(Error::new("table", quoted(self.measurement.name()), allowed))
+        Err(Error::conflict("table", quoted(self.measurement.name()), allowed))
     }
 
     /// A table of its runs as CSV, with the plan in the header.
@@ -212,7 +216,7 @@ impl Plan {
 
     /// Reads JSON and checks every cell.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        serde_json::from_str(text).map_err(|e| Error::new("plan", e, "a plan in JSON"))
+        serde_json::from_str(text).map_err(|e| Error::malformed("plan", e, "a plan in JSON"))
     }
 
     /// Where another plan differs from this one, as far as a sentence can say: `runs is 10 and not 20`.
@@ -254,7 +258,7 @@ impl TryFrom<Data> for Plan {
     type Error = Error;
     fn try_from(data: Data) -> Result<Self, Error> {
         if data.version != FORMAT {
-            return Err(Error::new("version of the plan", data.version, FORMAT.to_string()));
+            return Err(Error::version("version of the plan", data.version, FORMAT.to_string()));
         }
         let scenario = Scenario::from_json(&data.scenario.to_string())?;
         let measurement = Measurement::from_json(&data.measurement.to_string())?;

@@ -69,7 +69,7 @@ impl FromStr for Shard {
             Some((index, count)) if 1 <= index && index <= count && count <= super::plan::MOST_RUNS => {
                 Ok(Self { index, count })
             }
-            _ => Err(Error::new("shard", quoted(text), "i/n with i from 1 to n, such as 1/4")),
+            _ => Err(Error::malformed("shard", quoted(text), "i/n with i from 1 to n, such as 1/4")),
         }
     }
 }
@@ -101,14 +101,15 @@ impl Header {
 
     /// Why runs under the `found` header cannot be taken for runs of this one.
     fn check(&self, found: &Self) -> Result<(), Error> {
-        let refuse = |what: String, allowed: &'static str| Err(Error::new("batch", what, allowed));
         if self.ringroad != found.ringroad {
             let what = format!("runs of version {} and not {}", found.ringroad, self.ringroad);
-            return refuse(what, "runs of one version: a seed may mean another run in another");
+            let allowed = "runs of one version: a seed may mean another run in another";
+            return Err(Error::version("batch", what, allowed));
         }
         match self.plan.difference(&found.plan) {
             Some(difference) => {
-                refuse(format!("another plan, in which {difference}"), "runs of the same plan")
+                let what = format!("another plan, in which {difference}");
+                Err(Error::conflict("batch", what, "runs of the same plan"))
             }
             None => Ok(()),
         }
@@ -166,13 +167,13 @@ impl Record {
     /// Reads a text. It may break off anywhere after the header; a line that makes no sense elsewhere is refused.
     pub fn read(text: &str) -> Result<Self, Error> {
         let allowed = "finished runs that ringroad batch wrote, with their plan";
-        let refuse = || Error::new("batch", opening(text), allowed);
+        let refuse = || Error::not_ours("batch", opening(text), allowed);
         let (first, _) = text.split_once('\n').ok_or_else(refuse)?;
         if !first.starts_with("{\"ringroad\":") {
             return Err(refuse());
         }
         let header: Header =
-            serde_json::from_str(first).map_err(|e| Error::new("header", e, "the plan of a batch"))?;
+            serde_json::from_str(first).map_err(|e| Error::malformed("header", e, "the plan of a batch"))?;
         let columns = header.plan.columns();
         let mut record = Self { header, runs: BTreeMap::new(), whole: first.len() + 1 };
         for (k, line) in text[record.whole..].split_inclusive('\n').enumerate() {
@@ -183,7 +184,7 @@ impl Record {
             let Header { plan, shard, .. } = &record.header;
             let run = parse(line, &columns).filter(|r| r.number < plan.runs() && shard.holds(r.number));
             let run = run.ok_or_else(|| {
-                Error::new(format!("line {}", k + 2), opening(line), "a finished run of the plan")
+                Error::malformed(format!("line {}", k + 2), opening(line), "a finished run of the plan")
             })?;
             record.runs.insert(run.number, run);
         }
@@ -197,7 +198,7 @@ impl Record {
             Ok(())
         } else {
             let value = format!("shard {} and not {shard}", self.header.shard);
-            Err(Error::new("batch", value, "the same shard"))
+            Err(Error::conflict("batch", value, "the same shard"))
         }
     }
 }
@@ -211,7 +212,7 @@ pub fn write(header: &Header, runs: &BTreeMap<u64, Run>) -> String {
 pub fn merge(shards: Vec<(String, Record)>) -> Result<(Header, BTreeMap<u64, Run>), Error> {
     let mut shards = shards.into_iter();
     let Some((first_name, first)) = shards.next() else {
-        return Err(Error::new("merge", "nothing", "the files of all shards of a batch"));
+        return Err(Error::out_of_range("merge", "nothing", "the files of all shards of a batch"));
     };
     let header = first.header.clone();
     let mut runs: BTreeMap<u64, (Run, String)> = BTreeMap::new();
@@ -220,13 +221,13 @@ pub fn merge(shards: Vec<(String, Record)>) -> Result<(Header, BTreeMap<u64, Run
         if header.summary != shard.header.summary {
             let allowed = format!("shards with one form of table, as in {first_name}");
             let form = if shard.header.summary { "with --summary" } else { "without --summary" };
-            return Err(Error::new("shard", form, allowed).within(&name));
+            return Err(Error::conflict("shard", form, allowed).within(&name));
         }
         for (number, run) in shard.runs {
             if let Some((_, other)) = runs.insert(number, (run, name.clone())) {
                 let value = format!("shard {} with run {}", shard.header.shard, number + 1);
                 let allowed = format!("shards that do not overlap: the run is in {other}, too");
-                return Err(Error::new("merge", value, allowed).within(&name));
+                return Err(Error::conflict("merge", value, allowed).within(&name));
             }
         }
     }
@@ -238,7 +239,7 @@ pub fn merge(shards: Vec<(String, Record)>) -> Result<(Header, BTreeMap<u64, Run
             missing + 1,
             missing % count + 1
         );
-        return Err(Error::new("merge", value, allowed));
+        return Err(Error::conflict("merge", value, allowed));
     }
     Ok((header, runs.into_iter().map(|(number, (run, _))| (number, run)).collect()))
 }

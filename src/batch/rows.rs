@@ -4,7 +4,6 @@ use super::plan::Plan;
 use super::run::Run;
 use crate::format::table::{Column, Table, Values};
 use crate::scenario::parameters::Parameter;
-use crate::scenario::value::Kind;
 use std::collections::BTreeMap;
 
 /// What is known of every run; a measurement with a column of that name says the same again.
@@ -48,7 +47,7 @@ impl Plan {
         let column = |(k, parameter): (usize, &Parameter)| {
             let values = of_cells.iter().map(|values| values[k]);
             let name = column_name(parameter);
-            if matches!(parameter.kind, Kind::Whole(_)) {
+            if parameter.kind.is_whole() {
                 Column::whole(name, parameter.unit, parameter.meaning, values.map(|x| x as u64).collect())
             } else {
                 Column::float(name, parameter.unit, parameter.meaning, values.collect())

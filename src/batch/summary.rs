@@ -65,7 +65,7 @@ impl Plan {
         }
         let allowed =
             "a table whose rows correspond from run to run, such as outcome, overview, lanes or drivers";
-        Err(Error::new("table of a summary", quoted(self.measurement().name()), allowed))
+        Err(Error::conflict("table of a summary", quoted(self.measurement().name()), allowed))
     }
 
     /// A row for each cell, for each place in the measurement (time, vehicle, …), and for each quantity.

@@ -47,7 +47,7 @@ fn define() -> Command {
                 .value_name("NAME=VALUES")
                 .action(ArgAction::Append)
                 .help(
-                    "ParameterValues a parameter: reaction-time=0:0.8:0.05 (from:to:by), lanes=1,2,4; may be repeated, \
+                    "Vary a parameter: reaction-time=0:0.8:0.05 (from:to:by), lanes=1,2,4; may be repeated, \
                      for all combinations",
                 ),
         )
@@ -141,7 +141,7 @@ fn stands_alone(matches: &ArgMatches, option: &str, beside: &[&str]) -> Result<(
     match matches.ids().map(clap::Id::as_str).filter(given).find(|id| !beside.contains(id)) {
         Some(other) => {
             let allowed = format!("only {} beside --{option}", listed(&beside[1..]));
-            Err(Error::new(format!("--{}", other.replace('_', "-")), "an option", allowed))
+            Err(Error::conflict(format!("--{}", other.replace('_', "-")), "an option", allowed))
         }
         None => Ok(()),
     }
@@ -234,9 +234,12 @@ impl Part {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
                 let allowed = "one batch at a time, or another --out";
-                return Err(
-                    Error::new("--out", format!("{name}, which another batch is writing,"), allowed).into()
-                );
+                return Err(Error::conflict(
+                    "--out",
+                    format!("{name}, which another batch is writing,"),
+                    allowed,
+                )
+                .into());
             }
             // A file system without locks.
             Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
@@ -254,10 +257,7 @@ impl Part {
                 record.check(&header.plan, header.shard)?;
                 Ok(record)
             });
-            let advice = |mut e: Error| {
-                e.allowed += "; or remove the file to start afresh";
-                e.within(&name)
-            };
+            let advice = |e: Error| e.with_advice("; or remove the file to start afresh").within(&name);
             (record.map_err(advice)?.runs, String::new())
         };
         file.set_len(whole as u64).and_then(|()| file.write_all(text.as_bytes())).map_err(failed)?;

@@ -92,7 +92,7 @@ pub(crate) fn unchecked_scenario(matches: &ArgMatches) -> Result<Scenario, Failu
         scenario.start = start.parse()?;
     }
     for exception in matches.get_many::<String>("driver").into_iter().flatten() {
-        scenario.exceptions.push(exception.parse().map_err(|e: Error| e.within("--driver"))?);
+        scenario.overrides.push(exception.parse().map_err(|e: Error| e.within("--driver"))?);
     }
     for action in matches.get_many::<String>("action").into_iter().flatten() {
         scenario.actions.push(action.parse().map_err(|e: Error| e.within("--action"))?);

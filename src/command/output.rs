@@ -27,7 +27,8 @@ impl Output {
     /// What `--out` says. A folder that does not exist is refused now, not after an hour's run.
     pub(crate) fn new(matches: &ArgMatches) -> Result<Self, Failure> {
         let Some(name) = matches.get_one::<String>("out") else { return Ok(Self::Standard) };
-        let refuse = |allowed: &'static str| Err(Error::new("--out", format!("“{name}”"), allowed).into());
+        let refuse =
+            |allowed: &'static str| Err(Error::out_of_range("--out", format!("“{name}”"), allowed).into());
         let path = Path::new(name);
         if path.file_name().is_none() || path.is_dir() {
             return refuse("the name of a file");

@@ -89,7 +89,7 @@ pub(crate) fn tabulate(
     if gib > MEMORY {
         let allowed =
             format!("at most {MEMORY} GiB: measure less often with --every, or fewer vehicles or bins");
-        return Err(Error::new("rows of the table", format!("{gib:.1} GiB"), allowed).into());
+        return Err(Error::too_large("rows of the table", format!("{gib:.1} GiB"), allowed).into());
     }
     let mut probes = [measurement.probe(scenario)?];
     let mut simulation = Simulation::new(scenario)?;

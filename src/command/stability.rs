@@ -7,17 +7,18 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use ringroad::error::Error;
 use ringroad::measurement::provenance::theory_to_csv;
 use ringroad::scenario::Scenario;
+use ringroad::scenario::parameter_values::ParameterValues;
 use ringroad::stability::discrete_roots::DiscreteRoot;
 use ringroad::stability::homogeneous::Time;
 use ringroad::stability::jacobian::{self, JacobianEigenvalue, numerical_eigenvalues};
 use ringroad::stability::lane::lanes_of;
 use ringroad::stability::report::Report;
 use ringroad::stability::roots::{ModeRoot, leading_factors, leading_roots};
-use ringroad::stability::stability_diagram::{Sweep, sweep};
 use ringroad::stability::stabilizing_drivers::{StabilizingDrivers, parse_changes, stabilizing_drivers};
 use ringroad::stability::stable_ranges::{
     first_jammed, most_vehicles, stable_sensitivities, stable_vehicles,
 };
+use ringroad::stability::sweep::sweep;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -128,7 +129,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let scenario = scenario(matches)?;
     let output = Output::new(matches)?;
     if let Some(text) = matches.get_one::<String>("sweep") {
-        let asked: Sweep = text.parse().map_err(|e: Error| e.within("--sweep"))?;
+        let asked = ParameterValues::sweep(text).map_err(|e| e.within("--sweep"))?;
         let table = sweep(&scenario, &asked)?;
         output.write(&theory_to_csv(&table, &scenario, &format!("stability --sweep {text}")))?;
         return Ok(ExitCode::SUCCESS);
@@ -138,7 +139,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     if with_eigenvalues && !json {
         if let Some(other) = ["roots", "calm-with"].into_iter().find(|&name| matches.contains_id(name)) {
             let allowed = "a table by itself, or --json for one answer with everything";
-            return Err(Error::new("--eigenvalues", format!("with --{other}"), allowed).into());
+            return Err(Error::conflict("--eigenvalues", format!("with --{other}"), allowed).into());
         }
         let table = jacobian::table(&eigenvalues(&scenario, Report::of(&scenario).lane)?);
         output.write(&theory_to_csv(&table, &scenario, "stability --eigenvalues"))?;
@@ -146,12 +147,9 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     }
     let roots = match matches.get_one::<String>("roots") {
         None => None,
-        Some(text) => Some(
-            text.parse()
-                .ok()
-                .filter(|k| (1..=100).contains(k))
-                .ok_or_else(|| Error::new("--roots", format!("“{text}”"), "a whole number from 1 to 100"))?,
-        ),
+        Some(text) => Some(text.parse().ok().filter(|k| (1..=100).contains(k)).ok_or_else(|| {
+            Error::malformed("--roots", format!("“{text}”"), "a whole number from 1 to 100")
+        })?),
     };
     let answer = answer(&scenario, matches.get_one("calm-with"), roots, with_eigenvalues)?;
     let text = if json {

@@ -56,8 +56,8 @@ impl Object {
     pub fn read(what: &'static str, text: &str) -> Result<Self, Error> {
         match text.parse() {
             Ok(Json::Object(object)) => Ok(object),
-            Ok(other) => Err(Error::new(what, other, "a JSON object")),
-            Err(e) => Err(Error::new(what, format!("broken JSON ({e})"), "a JSON object")),
+            Ok(other) => Err(Error::malformed(what, other, "a JSON object")),
+            Err(e) => Err(Error::malformed(what, format!("broken JSON ({e})"), "a JSON object")),
         }
     }
 

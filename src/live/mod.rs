@@ -44,7 +44,7 @@ pub fn opening() -> Scenario {
     let mut scenario = link::base();
     scenario.driver.reaction_time = 0.75;
     scenario.actions =
-        vec![Action { at: 0.0, who: VehicleSelector::Vehicle(1), effects: vec![Effect::Nudge(1.0)] }];
+        vec![Action { at: 0.0, vehicles: VehicleSelector::Vehicle(1), effects: vec![Effect::Nudge(1.0)] }];
     scenario
 }
 
@@ -471,7 +471,7 @@ impl Live {
         let mut scenario = self.simulation.scenario().clone();
         let now = self.simulation.step_index();
         let set_for_all: Vec<_> = (scenario.actions_in_time().into_iter())
-            .filter(|&(step, k)| step <= now && scenario.actions[k].who == VehicleSelector::All)
+            .filter(|&(step, k)| step <= now && scenario.actions[k].vehicles == VehicleSelector::All)
             .flat_map(|(_, k)| scenario.actions[k].effects.clone())
             .filter_map(
                 |effect| if let Effect::Set(field, value) = effect { Some((field, value)) } else { None },
@@ -479,14 +479,14 @@ impl Live {
             .collect();
         for (field, value) in set_for_all {
             scenario.driver.set(field, value);
-            for exception in &mut scenario.exceptions {
-                exception.values.retain(|(f, _)| *f != field);
+            for differing in &mut scenario.overrides {
+                differing.values.retain(|(f, _)| *f != field);
             }
         }
-        scenario.exceptions.retain(|e| !e.values.is_empty());
+        scenario.overrides.retain(|e| !e.values.is_empty());
         let is_set = |e: &Effect| matches!(e, Effect::Set(..));
         let steps = |a: &Action| (a.at / scenario.time_step).round() as u64;
-        let is_settled = |a: &Action| a.who == VehicleSelector::All && a.effects.iter().all(is_set);
+        let is_settled = |a: &Action| a.vehicles == VehicleSelector::All && a.effects.iter().all(is_set);
         scenario.actions.retain(|a| steps(a) > now || steps(a) == 0 && !is_settled(a));
         scenario
     }
@@ -502,7 +502,7 @@ impl Live {
             scenario.set(parameter, parameter.parse(text)?)?;
             if name == "vehicles" {
                 let n = scenario.vehicles;
-                scenario.actions.retain(|a| a.who.check(n).is_ok());
+                scenario.actions.retain(|a| a.vehicles.check(n).is_ok());
             }
         }
         scenario.validate()?;
@@ -522,7 +522,7 @@ impl Live {
             let parameter = parameter(name)?;
             if let Field::Driver(field) = parameter.field {
                 let effects = vec![Effect::Set(field, parameter.parse(text)?)];
-                let action = Action { at: 0.0, who: VehicleSelector::All, effects };
+                let action = Action { at: 0.0, vehicles: VehicleSelector::All, effects };
                 return self.act(action).map(|()| false);
             }
         }
@@ -593,7 +593,7 @@ impl Live {
         let mut scenario = self.simulation.scenario().clone();
         if index >= scenario.actions.len() {
             let allowed = format!("a place from 1 to {}", scenario.actions.len());
-            return Err(Error::new("actions", index + 1, allowed));
+            return Err(Error::out_of_range("actions", index + 1, allowed));
         }
         scenario.actions.remove(index);
         Self::new(&scenario)

@@ -62,10 +62,10 @@ impl Provenance {
         if header_line(text, PLAN).is_ok() {
             let allowed =
                 "the table of one run; a batch is repeated by `ringroad batch --plan` with this file";
-            return Err(Error::new("file", "the table of a batch", allowed));
+            return Err(Error::not_ours("file", "the table of a batch", allowed));
         }
         if header_line(text, COMPUTED).is_ok() {
-            return Err(Error::new("file", "a table that theory computed", "the table of one run"));
+            return Err(Error::not_ours("file", "a table that theory computed", "the table of one run"));
         }
         Ok(Self {
             version,
@@ -84,14 +84,18 @@ pub fn scenario_of_file(text: &str) -> Result<(Scenario, Option<String>), Error>
     } else if text.trim_start().starts_with('{') {
         Scenario::from_json(text).map(|scenario| (scenario, None))
     } else {
-        Err(Error::new("file", opening(text), "a scenario in JSON or a table of Ringroad; it is neither"))
+        Err(Error::not_ours(
+            "file",
+            opening(text),
+            "a scenario in JSON or a table of Ringroad; it is neither",
+        ))
     }
 }
 
 /// The rest of the header line that begins with `prefix`.
 pub(crate) fn header_line<'a>(text: &'a str, prefix: &str) -> Result<&'a str, Error> {
     text.lines().take_while(|l| l.starts_with('#')).find_map(|l| l.strip_prefix(prefix)).ok_or_else(|| {
-        Error::new("CSV header", opening(text), format!("a file of Ringroad, with a line “{prefix}…”"))
+        Error::not_ours("CSV header", opening(text), format!("a file of Ringroad, with a line “{prefix}…”"))
     })
 }
 

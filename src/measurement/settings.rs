@@ -185,7 +185,7 @@ impl Setting {
     }
 
     fn refuse(&self, value: impl std::fmt::Display) -> Error {
-        Error::new(self.name, value, self.allowed())
+        Error::out_of_range(self.name, value, self.allowed())
     }
 
     fn check(&self, value: &Json) -> Result<(), Error> {
@@ -276,7 +276,7 @@ impl Measurement {
         let mut all = Self::all();
         let Some(found) = all.iter_mut().find(|m| m.name() == name) else {
             let names: Vec<_> = all.iter().map(Self::name).collect();
-            return Err(Error::new("table", quoted(name), names.join(", ")));
+            return Err(Error::unknown("table", quoted(name), names.join(", ")));
         };
         Ok(found.clone())
     }
@@ -324,7 +324,7 @@ impl Measurement {
             let setting = settings.iter().find(|s| s.option == option).ok_or_else(|| {
                 let names: Vec<_> = settings.iter().map(|s| format!("--{}", s.option)).collect();
                 let names = if names.is_empty() { "no setting".to_owned() } else { names.join(", ") };
-                Error::new(format!("table {}", self.name()), format!("--{option}"), names)
+                Error::unknown(format!("table {}", self.name()), format!("--{option}"), names)
             })?;
             object.insert(setting.name, setting.parse(text)?);
         }
@@ -386,14 +386,14 @@ impl Measurement {
             Some(Json::Text(name)) => Self::named(name)?,
             other => {
                 let value = other.map_or_else(|| "nothing".to_owned(), Json::to_string);
-                return Err(Error::new("table", value, "the name of a table, a text"));
+                return Err(Error::malformed("table", value, "the name of a table, a text"));
             }
         };
         let (known, of) = (table.to_object(), table.name());
         for (name, value) in given.iter().filter(|(name, _)| *name != "table") {
             let Some(default) = known.get(name) else {
                 let names: Vec<_> = known.iter().map(|(name, _)| name).collect();
-                return Err(Error::new("field", quoted(name), names.join(", ")).within(of));
+                return Err(Error::unknown("field", quoted(name), names.join(", ")).within(of));
             };
             let follows = *default == Json::Null && *value == Json::Null;
             if !follows && let Some(setting) = SETTINGS.iter().find(|s| s.name == name) {
@@ -455,7 +455,7 @@ impl Measurement {
         for (name, value) in resolved.to_object().iter() {
             let number = value.as_number().unwrap_or(0.0);
             let refuse =
-                |allowed: String| Err(Error::new(name.to_owned(), value, allowed).within(self.name()));
+                |allowed: String| Err(Error::conflict(name.to_owned(), value, allowed).within(self.name()));
             let most = |limit: usize, what: &str| {
                 if number > limit as f64 { refuse(format!("at most {limit}, {what}")) } else { Ok(()) }
             };
@@ -467,7 +467,7 @@ impl Measurement {
                 "vehicles" => {
                     let numbers = value.as_list().into_iter().flatten();
                     match numbers.filter_map(Json::as_number).find(|&n| n > scenario.vehicles as f64) {
-                        Some(n) => Err(Error::new(
+                        Some(n) => Err(Error::conflict(
                             name.to_owned(),
                             n,
                             format!("at most {}, the number of vehicles", scenario.vehicles),
@@ -494,7 +494,7 @@ impl Measurement {
         {
             let most = COUNTS * every / bins as f64;
             let allowed = format!("at most {most} s with rows every {every} s at {bins} places");
-            return Err(Error::new("window", window, allowed).within(self.name()));
+            return Err(Error::too_large("window", window, allowed).within(self.name()));
         }
         Ok(())
     }
@@ -548,7 +548,7 @@ impl Measurement {
             _ => {
                 let allowed = "trajectories, speeds, speed-map, flow-map, flow, growth, events or lanes; \
                                the command makes every table";
-                return Err(Error::new("table", quoted(self.name()), allowed));
+                return Err(Error::conflict("table", quoted(self.name()), allowed));
             }
         })
     }

@@ -55,7 +55,7 @@ fn scenario(size: Size, aggressive: bool, seed: u64) -> Scenario {
         ..Scenario::default()
     };
     if aggressive {
-        scenario.exceptions.push("1:sensitivity=2".parse().expect("the grammar of driver overrides"));
+        scenario.overrides.push("1:sensitivity=2".parse().expect("the grammar of driver overrides"));
     }
     scenario
 }

@@ -63,7 +63,7 @@ impl Point {
             time_step: 0.05,
             until: size.choose(500.0, 100.0),
             seed,
-            exceptions: vec![driver_override.parse().expect("the grammar of driver overrides")],
+            overrides: vec![driver_override.parse().expect("the grammar of driver overrides")],
             ..Scenario::default()
         }
     }

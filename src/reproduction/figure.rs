@@ -69,7 +69,7 @@ impl Figure {
         if results.len() == needed {
             Ok((self.assemble)(size, results))
         } else {
-            Err(Error::new("task results", results.len(), format!("{needed} for {}", self.id)))
+            Err(Error::out_of_range("task results", results.len(), format!("{needed} for {}", self.id)))
         }
     }
 

@@ -63,7 +63,7 @@ impl Figure {
     pub fn named(id: &str) -> Result<&'static Self, Error> {
         FIGURES.iter().find(|f| f.id == id).ok_or_else(|| {
             let ids: Vec<_> = FIGURES.iter().map(|f| f.id).collect();
-            Error::new("figure", quoted(id), format!("{} or all", ids.join(", ")))
+            Error::unknown("figure", quoted(id), format!("{} or all", ids.join(", ")))
         })
     }
 }

@@ -55,7 +55,8 @@ impl TaskResult {
     /// # Errors
     /// If the lengths in the array do not fit its own length.
     pub fn from_flat(flat: &[f64]) -> Result<Self, Error> {
-        let wrong = || Error::new("task result", "an array of another form", "an array that a task gave");
+        let wrong =
+            || Error::malformed("task result", "an array of another form", "an array that a task gave");
         let (&count, rest) = flat.split_first().ok_or_else(wrong)?;
         let count = count as usize;
         if rest.len() < count {

@@ -1,11 +1,20 @@
-//! What happens on the way, and who is different: timed actions and exceptions among the drivers, in the one
-//! grammar that the command, the link, JSON and the page share.
+//! Timed actions and driver overrides, in the one grammar that the command, the link, JSON and the page share.
 //!
 //! ```text
-//! exception   WHO:PARAMETER=VALUE[,PARAMETER=VALUE …]     12:sensitivity=2     10%:sensitivity=2
+//! override    WHO:PARAMETER=VALUE[,PARAMETER=VALUE …]     12:sensitivity=2     10%:sensitivity=2
 //! action      at=SECONDS:WHO:EFFECT[,EFFECT …]            at=30:all:reaction-time=0.75
 //! EFFECT      PARAMETER=VALUE | brake=SECONDS | nudge=METRES
 //! WHO         all | NUMBER | FIRST-LAST | SHARE%          (a share of the vehicles, drawn by the seed)
+//! ```
+//!
+//! JSON calls the overrides `exceptions`, the link and the command call each of them `driver`.
+//!
+//! ```
+//! use ringroad::scenario::action::{Action, Effect, VehicleSelector};
+//!
+//! let action: Action = "at=40:7:brake=3,nudge=-0.5".parse().unwrap();
+//! assert_eq!((action.at, action.vehicles), (40.0, VehicleSelector::Vehicle(7)));
+//! assert_eq!(action.effects, [Effect::Brake(3.0), Effect::Nudge(-0.5)]);
 //! ```
 
 use crate::error::{Error, quoted};
@@ -14,7 +23,7 @@ use crate::scenario::value::Value;
 use std::fmt;
 use std::str::FromStr;
 
-/// The vehicles that an action or an exception speaks of.
+/// The vehicles that an action or an override is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum VehicleSelector {
     /// Every vehicle.
@@ -27,7 +36,7 @@ pub enum VehicleSelector {
     Share(f64),
 }
 
-/// One thing that an action does.
+/// One effect of an action.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Effect {
     /// Gives a driver's parameter a value.
@@ -38,28 +47,28 @@ pub enum Effect {
     Nudge(f64),
 }
 
-/// Something that happens at a time; it rounds to a whole step.
+/// Something that happens at a time, which is rounded to a whole step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
     /// Time, s.
     pub at: f64,
-    /// To whom.
-    pub who: VehicleSelector,
-    /// What, in this order.
+    /// For which vehicles.
+    pub vehicles: VehicleSelector,
+    /// What happens to them, in this order.
     pub effects: Vec<Effect>,
 }
 
-/// Drivers who differ from the default one from the start.
+/// Drivers that differ from the default driver, from t = 0 on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriverOverride {
-    /// Who.
-    pub who: VehicleSelector,
-    /// Parameters that differ, with their values.
+    /// Which vehicles they drive.
+    pub vehicles: VehicleSelector,
+    /// The values that differ.
     pub values: Vec<(DriverField, Value)>,
 }
 
 impl VehicleSelector {
-    /// Whether such vehicles exist among `vehicles`.
+    /// Whether there are such vehicles where the vehicles are numbered from 1 to `vehicles`.
     pub fn check(self, vehicles: usize) -> Result<(), Error> {
         let fits = match self {
             Self::All => true,
@@ -72,7 +81,7 @@ impl VehicleSelector {
         } else {
             let allowed =
                 format!("a vehicle from 1 to {vehicles}, a range such as 3-7, “all”, or 0% to 100%");
-            Err(Error::new("vehicle", self, allowed))
+            Err(Error::out_of_range("vehicle", self, allowed))
         }
     }
 }
@@ -93,7 +102,7 @@ impl FromStr for VehicleSelector {
     fn from_str(text: &str) -> Result<Self, Error> {
         let text = text.trim();
         let wrong = || {
-            Error::new(
+            Error::malformed(
                 "vehicle",
                 quoted(text),
                 "a number, a range such as 3-7, “all”, or a share such as 10%",
@@ -120,11 +129,15 @@ impl Effect {
         match self {
             Self::Set(field, value) => field.parameter().check(value),
             Self::Brake(seconds) if (0.0..=1e7).contains(&seconds) => Ok(()),
-            Self::Brake(seconds) => Err(Error::new("brake", seconds, "a number from 0 to 10000000 s")),
-            Self::Nudge(metres) if metres.abs() <= length => Ok(()),
-            Self::Nudge(metres) => {
-                Err(Error::new("nudge", metres, format!("a number from -{length} to {length} m, one lap")))
+            Self::Brake(seconds) => {
+                Err(Error::out_of_range("brake", seconds, "a number from 0 to 10000000 s"))
             }
+            Self::Nudge(metres) if metres.abs() <= length => Ok(()),
+            Self::Nudge(metres) => Err(Error::out_of_range(
+                "nudge",
+                metres,
+                format!("a number from -{length} to {length} m, one lap"),
+            )),
         }
     }
 }
@@ -143,19 +156,19 @@ impl fmt::Display for Effect {
 fn assignment<'a>(what: &'static str, text: &'a str) -> Result<(&'a str, &'a str), Error> {
     let (name, value) = text
         .split_once('=')
-        .ok_or_else(|| Error::new(what, quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
+        .ok_or_else(|| Error::malformed(what, quoted(text), "NAME=VALUE, such as reaction-time=0.75"))?;
     Ok((name.trim(), value))
 }
 
 fn number(name: &'static str, text: &str) -> Result<f64, Error> {
-    text.trim().parse().map_err(|_| Error::new(name, quoted(text), "a number"))
+    text.trim().parse().map_err(|_| Error::malformed(name, quoted(text), "a number"))
 }
 
 /// A field of a driver with its value, of which only the kind is checked.
 fn setting(names: Lookup, name: &str, text: &str) -> Result<(DriverField, Value), Error> {
     let parameter = names.find(name)?;
     let Field::Driver(field) = parameter.field else { unreachable!("the look-up is among those of drivers") };
-    let wrong = || Error::new(name.to_owned(), quoted(text), parameter.kind.words());
+    let wrong = || Error::malformed(name.to_owned(), quoted(text), parameter.kind.words());
     parameter.kind.parse(text).map(|value| (field, value)).ok_or_else(wrong)
 }
 
@@ -176,20 +189,22 @@ impl FromStr for Effect {
 
 impl fmt::Display for Action {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at={}:{}:{}", self.at, self.who, joined(&self.effects))
+        write!(f, "at={}:{}:{}", self.at, self.vehicles, joined(&self.effects))
     }
 }
 
 impl Action {
     /// `WHO:EFFECT[,EFFECT …]`, at a time in s.
     pub fn at(at: f64, text: &str) -> Result<Self, Error> {
-        let form = || Error::new("action", quoted(text), "WHO:EFFECT, such as 7:brake=3");
-        let (who, effects) = text.split_once(':').filter(|(who, _)| !who.contains('=')).ok_or_else(form)?;
-        Self::of(at, who, effects).map_err(|e| e.within(quoted(text)))
+        let form = || Error::malformed("action", quoted(text), "WHO:EFFECT, such as 7:brake=3");
+        let (vehicles, effects) =
+            text.split_once(':').filter(|(vehicles, _)| !vehicles.contains('=')).ok_or_else(form)?;
+        Self::of(at, vehicles, effects).map_err(|e| e.within(quoted(text)))
     }
 
-    /// Whether this, done after `earlier` in the same step, leaves nothing of it: the same vehicles, their parameters
-    /// set again, braked for as long or longer. Nudges add up, and a share is drawn anew by every action.
+    /// Whether `earlier` has no effect any more when this action follows it in the same step: both are for the same
+    /// vehicles, and this one sets the same parameters again or brakes for at least as long. Nudges never replace one
+    /// another, because they add up; nor do actions for a share, because every action draws its own vehicles.
     pub(crate) fn replaces(&self, earlier: &Self) -> bool {
         let again = |old: &Effect| {
             self.effects.iter().any(|new| match (old, new) {
@@ -198,14 +213,14 @@ impl Action {
                 _ => false,
             })
         };
-        !matches!(self.who, VehicleSelector::Share(_))
-            && self.who == earlier.who
+        !matches!(self.vehicles, VehicleSelector::Share(_))
+            && self.vehicles == earlier.vehicles
             && earlier.effects.iter().all(again)
     }
 
-    fn of(at: f64, who: &str, effects: &str) -> Result<Self, Error> {
+    fn of(at: f64, vehicles: &str, effects: &str) -> Result<Self, Error> {
         let effects = effects.split(',').map(str::parse).collect::<Result<_, _>>()?;
-        Ok(Self { at, who: who.parse()?, effects })
+        Ok(Self { at, vehicles: vehicles.parse()?, effects })
     }
 }
 
@@ -213,33 +228,37 @@ impl FromStr for Action {
     type Err = Error;
     fn from_str(text: &str) -> Result<Self, Error> {
         let form = || {
-            Error::new("action", quoted(text), "at=SECONDS:WHO:EFFECT, such as at=30:all:reaction-time=0.75")
+            Error::malformed(
+                "action",
+                quoted(text),
+                "at=SECONDS:WHO:EFFECT, such as at=30:all:reaction-time=0.75",
+            )
         };
         let mut parts = text.trim().splitn(3, ':');
-        let (Some(at), Some(who), Some(effects)) = (parts.next(), parts.next(), parts.next()) else {
+        let (Some(at), Some(vehicles), Some(effects)) = (parts.next(), parts.next(), parts.next()) else {
             return Err(form());
         };
         let Ok(("at", at)) = assignment(EFFECT.of, at) else { return Err(form()) };
         let at = number("at", at).map_err(|_| form())?;
-        Self::of(at, who, effects).map_err(|e| e.within(quoted(text)))
+        Self::of(at, vehicles, effects).map_err(|e| e.within(quoted(text)))
     }
 }
 
 impl fmt::Display for DriverOverride {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let values: Vec<_> = self.values.iter().map(|&(p, v)| Effect::Set(p, v)).collect();
-        write!(f, "{}:{}", self.who, joined(&values))
+        write!(f, "{}:{}", self.vehicles, joined(&values))
     }
 }
 
 impl FromStr for DriverOverride {
     type Err = Error;
     fn from_str(text: &str) -> Result<Self, Error> {
-        let (who, values) = text.split_once(':').ok_or_else(|| {
-            Error::new("driver", quoted(text), "WHO:PARAMETER=VALUE, such as 12:sensitivity=2")
+        let (vehicles, values) = text.split_once(':').ok_or_else(|| {
+            Error::malformed("driver", quoted(text), "WHO:PARAMETER=VALUE, such as 12:sensitivity=2")
         })?;
         Ok(Self {
-            who: who.parse().map_err(|e: Error| e.within(quoted(text)))?,
+            vehicles: vehicles.parse().map_err(|e: Error| e.within(quoted(text)))?,
             values: driver_values(values).map_err(|e| e.within(quoted(text)))?,
         })
     }
@@ -263,7 +282,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_reads_back() {
+    fn written_actions_and_overrides_read_back() {
         for text in [
             "at=30:all:reaction-time=0.75",
             "at=40:7:brake=3",
@@ -279,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn an_action_without_its_time_is_refused_in_its_own_words() {
+    fn a_refused_action_without_a_time_is_not_asked_for_one() {
         assert_eq!(Action::at(1.5, "7:brake=3,nudge=1").unwrap().to_string(), "at=1.5:7:brake=3,nudge=1");
         for text in ["brake=3", "7", "at=3:7:brake=3", ""] {
             let message = Action::at(0.0, text).unwrap_err().to_string();
@@ -290,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn what_leaves_nothing_of_an_earlier_action_replaces_it() {
+    fn an_action_replaces_an_earlier_one_of_which_no_effect_is_left() {
         for (earlier, now, replaced) in [
             ("all:sensitivity=1", "all:sensitivity=2", true),
             ("all:sensitivity=1", "all:reaction-time=1,sensitivity=2", true),
@@ -308,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_named() {
+    fn refusals_name_the_wrong_part() {
         for (text, named) in [
             ("30:all:reaction-time=1", "at=SECONDS"),
             ("at=30:all", "at=SECONDS"),

@@ -108,7 +108,7 @@ impl Driver {
             Ok(())
         } else {
             let allowed = format!("more than the vehicle length, {} m", self.vehicle_length);
-            Err(Error::new("min-headway", format!("{} m", self.min_headway), allowed))
+            Err(Error::conflict("min-headway", format!("{} m", self.min_headway), allowed))
         }
     }
 

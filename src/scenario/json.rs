@@ -43,7 +43,7 @@ impl Scenario {
         object.insert("version", FORMAT);
         object.insert("start", self.start.to_string());
         object.insert("driver", driver);
-        object.insert("exceptions", self.exceptions.iter().map(DriverOverride::to_string).collect::<Json>());
+        object.insert("exceptions", self.overrides.iter().map(DriverOverride::to_string).collect::<Json>());
         object.insert("actions", self.actions.iter().map(Action::to_string).collect::<Json>());
         object.into()
     }
@@ -53,21 +53,21 @@ impl Scenario {
         for (name, value) in object.iter() {
             match name {
                 "version" if value.as_number() == Some(FORMAT as f64) => {}
-                "version" => return Err(Error::new("version", value, FORMAT.to_string())),
+                "version" => return Err(Error::version("version", value, FORMAT.to_string())),
                 "start" => {
-                    let text = value.as_text().ok_or_else(|| Error::new("start", value, "a text"))?;
+                    let text = value.as_text().ok_or_else(|| Error::malformed("start", value, "a text"))?;
                     scenario.start = text.parse()?;
                 }
                 "driver" => {
                     let Json::Object(driver) = value else {
-                        return Err(Error::new("driver", value, "a JSON object"));
+                        return Err(Error::malformed("driver", value, "a JSON object"));
                     };
                     for (name, value) in driver.iter() {
                         let parameter = OF_DRIVER.find(name).map_err(|e| e.within("driver"))?;
                         scenario.set(parameter, parameter.read(value)?)?;
                     }
                 }
-                "exceptions" => scenario.exceptions = read_texts("exceptions", value)?,
+                "exceptions" => scenario.overrides = read_texts("exceptions", value)?,
                 "actions" => scenario.actions = read_texts("actions", value)?,
                 name => {
                     let parameter = OF_SCENARIO.find(name)?;
@@ -87,9 +87,10 @@ impl Serialize for Scenario {
 }
 
 fn read_texts<T: FromStr<Err = Error>>(field: &'static str, value: &Json) -> Result<Vec<T>, Error> {
-    let list = value.as_list().ok_or_else(|| Error::new(field, value, "a list of texts"))?;
+    let list = value.as_list().ok_or_else(|| Error::malformed(field, value, "a list of texts"))?;
     let one = |(k, item): (usize, &Json)| {
-        let text = item.as_text().ok_or_else(|| Error::new(format!("{field}[{}]", k + 1), item, "a text"))?;
+        let text =
+            item.as_text().ok_or_else(|| Error::malformed(format!("{field}[{}]", k + 1), item, "a text"))?;
         text.parse().map_err(|e: Error| e.within(format!("{field}[{}]", k + 1)))
     };
     list.iter().enumerate().map(one).collect()

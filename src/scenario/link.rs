@@ -1,6 +1,15 @@
 //! A scenario as the readable part of a link: `vehicles=30&reaction-time=0.75&action=at%3D40%3A7%3Abrake%3D3`.
 //!
-//! The entries are the parameters by their hyphenated names, `start`, and any number of `driver` (exceptions) and
+//! ```
+//! use ringroad::scenario::link;
+//!
+//! let reading = link::parse("#vehicles=30&reaction-time=0.75&colour=red");
+//! assert_eq!(reading.scenario.vehicles, 30);
+//! assert_eq!(reading.refused[0].0, "colour=red");
+//! assert_eq!(link::format(&reading.scenario), "vehicles=30&reaction-time=0.75");
+//! ```
+//!
+//! The entries are the parameters by their hyphenated names, `start`, and any number of `driver` (overrides) and
 //! `action`, the last two in the grammar of [`crate::scenario::action`]. Only what differs from [`base`] is written. A bad
 //! entry is reported and the rest applies.
 
@@ -10,15 +19,15 @@ use crate::scenario::value::Value;
 use crate::scenario::{Scenario, Start};
 use std::fmt::Write as _;
 
-/// The scenario of an empty link: the default one, but with an open end. Someone who watches stops the run
-/// when it has shown enough, so `until` is the largest that is allowed.
+/// The scenario of an empty link: the default one, but with the largest `until` that is allowed, because a run that is
+/// watched on the page is stopped by hand.
 pub fn base() -> Scenario {
     let mut scenario = Scenario::default();
     scenario.until = RoadField::Until.parameter().kind.range().map_or(scenario.until, |range| range.max);
     scenario
 }
 
-/// What a link says.
+/// What was read from a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// A valid scenario, made of every entry that could be used.
@@ -37,7 +46,7 @@ enum Entry {
 
 impl Entry {
     fn read(text: &str) -> Result<Self, Error> {
-        let form = || Error::new("link", quoted(text), "NAME=VALUE, such as reaction-time=0.75");
+        let form = || Error::malformed("link", quoted(text), "NAME=VALUE, such as reaction-time=0.75");
         let (name, value) = text.split_once('=').ok_or_else(form)?;
         let value = decoded(value)?;
         match name {
@@ -55,7 +64,7 @@ impl Entry {
         match self {
             Self::Parameter(parameter, value) => scenario.set(parameter, *value)?,
             Self::Start(start) => scenario.start = *start,
-            Self::Driver(exception) => scenario.exceptions.push(exception.clone()),
+            Self::Driver(differing) => scenario.overrides.push(differing.clone()),
             Self::Action(action) => scenario.actions.push(action.clone()),
         }
         Ok(())
@@ -75,8 +84,9 @@ pub fn parse(text: &str) -> Reading {
             Err(e) => refused.push((decoded(part).unwrap_or_else(|_| part.into()), e)),
         }
     }
-    // All of them together first. Where that fails, as many as make sense together: several passes, since an
-    // entry may fit only after a later one (200 vehicles, then the longer road).
+    // First all entries together. If that scenario is refused, entries are added one by one and kept where the scenario
+    // stays valid. This takes several passes, because an entry may fit only after a later one (200 vehicles, then the
+    // longer road).
     let mut used = vec![true; entries.len()];
     if build(&entries, &used).is_err() {
         used.fill(false);
@@ -124,7 +134,7 @@ pub fn format(scenario: &Scenario) -> String {
     if scenario.start != base.start {
         parts.push(format!("start={}", encoded(&scenario.start.to_string())));
     }
-    parts.extend(scenario.exceptions.iter().map(|e| format!("driver={}", encoded(&e.to_string()))));
+    parts.extend(scenario.overrides.iter().map(|e| format!("driver={}", encoded(&e.to_string()))));
     parts.extend(scenario.actions.iter().map(|a| format!("action={}", encoded(&a.to_string()))));
     parts.join("&")
 }
@@ -143,7 +153,8 @@ fn encoded(text: &str) -> String {
 }
 
 fn decoded(text: &str) -> Result<String, Error> {
-    let wrong = || Error::new("link", quoted(text), "percent-encoded text, such as at%3D40%3A7%3Abrake%3D3");
+    let wrong =
+        || Error::malformed("link", quoted(text), "percent-encoded text, such as at%3D40%3A7%3Abrake%3D3");
     let mut bytes = Vec::new();
     let mut rest = text.as_bytes();
     while let Some((&first, tail)) = rest.split_first() {
@@ -179,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn the_end_is_open_unless_the_link_sets_it() {
+    fn the_end_is_the_latest_allowed_unless_the_link_sets_it() {
         assert_eq!(parse("").scenario.until, 1e7);
         let closed = parse("until=600").scenario;
         assert_eq!((closed.until, format(&closed).as_str()), (600.0, "until=600"));

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`parameters`] | the one table of parameters |
 //! | [`value`] | the values of a parameter, and the kinds of parameters |
+//! | [`parameter_values`] | a parameter with the values that a batch or a sweep gives it |
 //! | [`driver`] | a driver: speed against headway, and the equilibrium of a lane |
 //! | [`action`] | timed actions, driver overrides, vehicle selectors |
 //! | [`start`] | where the vehicles are at t = 0 |
@@ -13,7 +14,7 @@
 //! | `validation` | whether a scenario can be run |
 //!
 //! ```
-//! use ringroad::scenario::Scenario;
+//! use ringroad::Scenario;
 //!
 //! let scenario = Scenario::from_json(r#"{"vehicles": 20, "driver": {"reaction_time": 0.5}}"#).unwrap();
 //! assert_eq!((scenario.vehicles, scenario.length), (20, 1000.0));
@@ -26,6 +27,7 @@ pub mod action;
 pub mod driver;
 mod json;
 pub mod link;
+pub mod parameter_values;
 pub mod parameters;
 pub mod presets;
 pub mod start;
@@ -60,9 +62,9 @@ pub struct Scenario {
     pub start: Start,
     /// The default driver.
     pub driver: Driver,
-    /// Drivers who differ, applied in order.
-    pub exceptions: Vec<DriverOverride>,
-    /// What happens on the way. Order matters among actions of the same step only.
+    /// Drivers that differ from the default driver; a later override goes over an earlier one. `exceptions` in JSON.
+    pub overrides: Vec<DriverOverride>,
+    /// What happens during the run. Order matters only among actions of the same step.
     pub actions: Vec<Action>,
 }
 
@@ -77,7 +79,7 @@ impl Default for Scenario {
             seed: 0,
             start: Start::Uniform,
             driver: Driver::default(),
-            exceptions: Vec::new(),
+            overrides: Vec::new(),
             actions: Vec::new(),
         };
         for parameter in &PARAMETERS {
@@ -126,7 +128,7 @@ impl Scenario {
             seed,
             start: _,
             driver: _,
-            exceptions: _,
+            overrides: _,
             actions: _,
         } = self;
         Value::Number(match field {
@@ -153,13 +155,13 @@ impl Scenario {
         }
     }
 
-    /// A time in whole steps.
+    /// The number of steps in a time (s), rounded.
     pub fn steps(&self, seconds: f64) -> u64 {
         (seconds / self.time_step).round() as u64
     }
 
-    /// The time of a step, s, with no more decimals than bring it to a thousandth of a step: i·dt itself is often
-    /// 18.330000000000002. It is the same number of [`Self::steps`].
+    /// The time of a step in s, with as few decimals as bring it within a thousandth of a step of i·dt, which itself is
+    /// often a number such as 18.330000000000002. [`Self::steps`] gives the step back.
     pub(crate) fn time_of(&self, step: u64) -> f64 {
         let time = step as f64 * self.time_step;
         let mut scale = 1.0;
@@ -189,12 +191,12 @@ impl Scenario {
         }
     }
 
-    /// Every vehicle's driver at the start: the default one and the exceptions.
+    /// The driver of every vehicle at t = 0: the default driver with the overrides.
     pub fn drivers(&self) -> Vec<Driver> {
         let mut drivers = vec![self.driver; self.vehicles];
-        for (k, exception) in self.exceptions.iter().enumerate() {
-            for vehicle in self.members(exception.who, random::Stream::DriverOverride(k)) {
-                for &(field, value) in &exception.values {
+        for (k, differing) in self.overrides.iter().enumerate() {
+            for vehicle in self.selected(differing.vehicles, random::Stream::DriverOverride(k)) {
+                for &(field, value) in &differing.values {
                     drivers[vehicle].set(field, value);
                 }
             }
@@ -202,9 +204,9 @@ impl Scenario {
         drivers
     }
 
-    /// The vehicles (indices from 0, ascending) that `who` means; a share is drawn from `stream`.
-    pub(crate) fn members(&self, who: VehicleSelector, stream: random::Stream) -> Vec<usize> {
-        match who {
+    /// The selected vehicles as indices from 0, ascending; a share is drawn from `stream`.
+    pub(crate) fn selected(&self, vehicles: VehicleSelector, stream: random::Stream) -> Vec<usize> {
+        match vehicles {
             VehicleSelector::All => (0..self.vehicles).collect(),
             VehicleSelector::Vehicle(n) => vec![n - 1],
             VehicleSelector::Range(first, last) => (first - 1..last).collect(),
@@ -270,7 +272,7 @@ mod tests {
         let with_seed = |seed| {
             let scenario = Scenario {
                 seed,
-                exceptions: vec!["10%:sensitivity=2".parse().unwrap()],
+                overrides: vec!["10%:sensitivity=2".parse().unwrap()],
                 ..Scenario::default()
             };
             scenario.drivers().iter().map(|d| d.sensitivity == 2.0).collect::<Vec<_>>()

@@ -6,7 +6,7 @@
 //! beside those two types and name every field, so a field without a parameter does not compile.
 //!
 //! ```
-//! use ringroad::scenario::Scenario;
+//! use ringroad::Scenario;
 //! use ringroad::scenario::parameters::Parameter;
 //! use ringroad::scenario::value::Value;
 //!
@@ -124,7 +124,7 @@ impl Serialize for Parameter {
             object.serialize_entry("max", &range.max)?;
         }
         object.serialize_entry("slider", &self.slider)?;
-        object.serialize_entry("whole", &matches!(self.kind, Kind::Whole(_)))?;
+        object.serialize_entry("whole", &self.kind.is_whole())?;
         match self.kind {
             Kind::Number(_) | Kind::Whole(_) => {}
             Kind::NumberOrNone(_) => object.serialize_entry("none", &true)?,
@@ -266,7 +266,7 @@ impl Lookup {
         let sought = if self.as_in_json { name.to_owned() } else { name.replace('_', "-") };
         self.rows().find(|p| spelled(p) == sought).ok_or_else(|| {
             let names: Vec<_> = self.rows().map(spelled).collect();
-            Error::new(self.of, quoted(name), format!("{}{}", names.join(", "), self.others))
+            Error::unknown(self.of, quoted(name), format!("{}{}", names.join(", "), self.others))
         })
     }
 }
@@ -303,7 +303,7 @@ impl Parameter {
             return Ok(());
         }
         let allowed = format!("{} only: the law {} does not use it", self.default, law.name());
-        Err(Error::new(self.hyphenated(), value, allowed))
+        Err(Error::conflict(self.hyphenated(), value, allowed))
     }
 
     /// Whether the value alone is allowed; combinations are the scenario's to check.
@@ -312,7 +312,7 @@ impl Parameter {
         if self.kind.allows(value) {
             Ok(())
         } else {
-            Err(Error::new(self.hyphenated(), value, self.allowed()))
+            Err(Error::out_of_range(self.hyphenated(), value, self.allowed()))
         }
     }
 
@@ -321,13 +321,13 @@ impl Parameter {
         let value = self
             .kind
             .parse(text)
-            .ok_or_else(|| Error::new(self.hyphenated(), quoted(text), self.allowed()))?;
+            .ok_or_else(|| Error::malformed(self.hyphenated(), quoted(text), self.allowed()))?;
         self.check(value).map(|()| value)
     }
 
     /// Reads a value of a JSON form. Whether it is allowed is not checked.
     pub(crate) fn read(&self, value: &Json) -> Result<Value, Error> {
-        self.kind.from_json(value).ok_or_else(|| Error::new(self.name, value, self.allowed()))
+        self.kind.from_json(value).ok_or_else(|| Error::malformed(self.name, value, self.allowed()))
     }
 
     /// What is allowed, in words: `a number from 0 to 10 s`.

@@ -1,6 +1,15 @@
 //! Scenarios with names, each with what to notice and what to try next.
+//!
+//! ```
+//! use ringroad::scenario::presets::preset;
+//!
+//! let jam = preset("phantom-jam").unwrap();
+//! assert_eq!(jam.scenario.driver.reaction_time, 0.75);
+//! assert!(preset("jam").unwrap_err().to_string().contains("phantom-jam"));
+//! ```
 
 use crate::error::{Error, quoted};
+use crate::scenario::action::{Action, DriverOverride};
 use crate::scenario::{Scenario, Start};
 use serde::Serialize;
 
@@ -34,24 +43,24 @@ fn lanes(vehicles: usize, lanes: usize, start: Start, frustration: (f64, f64)) -
     scenario
 }
 
-fn action(text: &str) -> crate::scenario::action::Action {
+fn action(text: &str) -> Action {
     text.parse().unwrap_or_else(|e: Error| panic!("{e}"))
 }
 
-fn exception(text: &str) -> crate::scenario::action::DriverOverride {
+fn differing(text: &str) -> DriverOverride {
     text.parse().unwrap_or_else(|e: Error| panic!("{e}"))
 }
 
 /// Every preset, in the order in which people read them.
 pub fn presets() -> Vec<Preset> {
     let aggressive = Scenario {
-        exceptions: vec![exception("1:sensitivity=2")],
+        overrides: vec![differing("1:sensitivity=2")],
         ..lanes(50, 2, Start::Staggered, (0.1, 0.1))
     };
-    let mut mixed = lanes(60, 2, Start::Uniform, (0.1, 0.1));
-    mixed.driver.reaction_time = 0.3;
-    mixed.exceptions =
-        vec![exception("20%:max-speed=25,vehicle-length=8,min-headway=12"), exception("10%:sensitivity=2")];
+    let mut heterogeneous = lanes(60, 2, Start::Uniform, (0.1, 0.1));
+    heterogeneous.driver.reaction_time = 0.3;
+    heterogeneous.overrides =
+        vec![differing("20%:max-speed=25,vehicle-length=8,min-headway=12"), differing("10%:sensitivity=2")];
     vec![
         Preset {
             name: "instant",
@@ -115,7 +124,7 @@ pub fn presets() -> Vec<Preset> {
             notice: "A fifth of the vehicles are lorries, long and at most 25 m/s fast, and a tenth of the drivers are \
                      aggressive: queues form behind the lorries, and who can changes lanes.",
             next: "Add a third lane, or make all drivers patient with p = 0.",
-            scenario: mixed,
+            scenario: heterogeneous,
         },
     ]
 }
@@ -127,5 +136,5 @@ pub fn preset(name: &str) -> Result<Preset, Error> {
         return Ok(all.swap_remove(k));
     }
     let names: Vec<_> = all.iter().map(|p| p.name).collect();
-    Err(Error::new("preset", quoted(name), names.join(", ")))
+    Err(Error::unknown("preset", quoted(name), names.join(", ")))
 }

@@ -39,8 +39,9 @@ impl fmt::Display for Start {
 impl FromStr for Start {
     type Err = Error;
     fn from_str(text: &str) -> Result<Self, Error> {
-        let wrong =
-            || Error::new("start", quoted(text), "uniform, one-lane, one-lane=LANE, staggered or random");
+        let wrong = || {
+            Error::malformed("start", quoted(text), "uniform, one-lane, one-lane=LANE, staggered or random")
+        };
         match text.trim().split_once('=') {
             None => match text.trim() {
                 "uniform" => Ok(Self::Uniform),

@@ -7,21 +7,22 @@ use crate::scenario::driver::Driver;
 use crate::scenario::parameters::PARAMETERS;
 use crate::scenario::{Scenario, Start};
 
-/// The largest history of positions that a run may need: 2 GiB.
+/// The largest memory that the history of positions may take, bytes: 2 GiB.
 const HISTORY_LIMIT: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
 
 impl Scenario {
-    /// Whether it can be run: every value in its range, every combination with a meaning, a start that fits.
+    /// Whether the scenario can be run. Checks every value by itself, then combinations of values (at every time of the
+    /// run), then whether the vehicles fit on the road. The refusal is of the first one that fails.
     pub fn validate(&self) -> Result<(), Error> {
         for parameter in &PARAMETERS {
             let value = self.value(parameter);
             parameter.check(value)?;
             parameter.check_use(self.law(), value)?;
         }
-        for (k, exception) in self.exceptions.iter().enumerate() {
-            let place = |e: Error| e.within(format!("exceptions[{}] “{exception}”", k + 1));
-            exception.who.check(self.vehicles).map_err(place)?;
-            for &(field, value) in &exception.values {
+        for (k, differing) in self.overrides.iter().enumerate() {
+            let place = |e: Error| e.within(format!("exceptions[{}] “{differing}”", k + 1));
+            differing.vehicles.check(self.vehicles).map_err(place)?;
+            for &(field, value) in &differing.values {
                 field.parameter().check(value).map_err(place)?;
             }
         }
@@ -32,16 +33,16 @@ impl Scenario {
         self.check_start()
     }
 
-    /// Whether an action by itself makes sense here.
+    /// Whether an action is allowed by itself, without regard to other actions.
     pub(crate) fn check_action(&self, action: &Action) -> Result<(), Error> {
         if !(0.0..=1e7).contains(&action.at) {
-            return Err(Error::new("at", action.at, "a number from 0 to 10000000 s"));
+            return Err(Error::out_of_range("at", action.at, "a number from 0 to 10000000 s"));
         }
-        action.who.check(self.vehicles)?;
+        action.vehicles.check(self.vehicles)?;
         action.effects.iter().try_for_each(|effect| effect.check(self.length))
     }
 
-    /// d > C for every driver at every time, and a history that fits into memory.
+    /// Checks d > C for every driver at every time, and that the history of positions fits into memory.
     fn check_drivers_through_time(&self) -> Result<(), Error> {
         self.driver.check()?;
         let mut drivers = self.drivers();
@@ -58,7 +59,7 @@ impl Scenario {
             if sets.is_empty() {
                 continue;
             }
-            for vehicle in self.members(action.who, random::Stream::Action(k)) {
+            for vehicle in self.selected(action.vehicles, random::Stream::Action(k)) {
                 for &(field, value) in &sets {
                     drivers[vehicle].set(field, value);
                 }
@@ -69,7 +70,7 @@ impl Scenario {
         self.check_history(longest)
     }
 
-    /// Whether the positions seen over the reaction time fit into memory.
+    /// Whether the history of positions fits into memory where `longest` is the longest reaction time, s.
     pub(crate) fn check_history(&self, longest: f64) -> Result<(), Error> {
         let bytes = 8.0 * self.vehicles as f64 * (longest / self.time_step).round();
         if bytes > HISTORY_LIMIT {
@@ -79,7 +80,7 @@ impl Scenario {
                 "at most {most} s for {} vehicles in steps of {} s: the history must fit 2 GiB",
                 self.vehicles, self.time_step
             );
-            return Err(Error::new("reaction-time", longest, allowed));
+            return Err(Error::too_large("reaction-time", longest, allowed));
         }
         Ok(())
     }
@@ -88,7 +89,7 @@ impl Scenario {
         let n = self.vehicles;
         match self.start {
             Start::OneLane(lane) if lane == 0 || lane > self.lanes => {
-                return Err(Error::new(
+                return Err(Error::conflict(
                     "start",
                     quoted(&self.start.to_string()),
                     format!("a lane from 1 to {}", self.lanes),
@@ -96,7 +97,7 @@ impl Scenario {
             }
             Start::OneLane(_) => {}
             _ if self.lanes > n => {
-                return Err(Error::new(
+                return Err(Error::conflict(
                     "lanes",
                     self.lanes,
                     format!("at most {n}: more lanes than vehicles can fill"),
@@ -104,7 +105,7 @@ impl Scenario {
             }
             Start::Staggered if !n.is_multiple_of(self.lanes) => {
                 let allowed = format!("a number that {} lanes divide, for a staggered start", self.lanes);
-                return Err(Error::new("vehicles", n, allowed));
+                return Err(Error::conflict("vehicles", n, allowed));
             }
             _ => {}
         }
@@ -123,7 +124,7 @@ impl Scenario {
                         self.length,
                         most(needed / count as f64)
                     );
-                    return Err(Error::new("vehicles", n, allowed));
+                    return Err(Error::conflict("vehicles", n, allowed));
                 }
             } else if count > 0 {
                 let headway = self.length / count as f64;
@@ -136,7 +137,7 @@ impl Scenario {
                             lane + 1,
                             (self.length / contact).ceil() - 1.0
                         );
-                        return Err(Error::new("vehicles", n, allowed));
+                        return Err(Error::conflict("vehicles", n, allowed));
                     }
                 }
             }

@@ -144,9 +144,9 @@ impl Kind {
         }
     }
 
-    /// Whether every value is a number, so that ranges of values make sense.
-    pub fn is_number(self) -> bool {
-        matches!(self, Self::Number(_) | Self::Whole(_))
+    /// Whether every value is a whole number.
+    pub fn is_whole(self) -> bool {
+        matches!(self, Self::Whole(_))
     }
 
     /// Reads a text that a person wrote. Whether the value is allowed is another question.
@@ -289,6 +289,6 @@ mod tests {
             assert!(!kind.words().contains("100") && kind.range() == Some(RANGE));
         }
         assert_eq!(Kind::Choice(LAWS).range(), None);
-        assert_eq!([Kind::Whole(RANGE), Kind::List(RANGE)].map(Kind::is_number), [true, false]);
+        assert_eq!([Kind::Whole(RANGE), Kind::List(RANGE)].map(Kind::is_whole), [true, false]);
     }
 }

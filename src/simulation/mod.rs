@@ -618,11 +618,11 @@ impl<S: Sampler> Simulation<S> {
     pub fn act(&mut self, mut action: Action) -> Result<(), Error> {
         action.at = self.scenario.time_of(self.step);
         if self.collision.is_some() {
-            return Err(Error::new("action", quoted(&action.to_string()), "none after a collision"));
+            return Err(Error::conflict("action", quoted(&action.to_string()), "none after a collision"));
         }
         self.scenario.check_action(&action)?;
         let index = self.scenario.actions.len();
-        let members = self.scenario.members(action.who, Stream::Action(index));
+        let members = self.scenario.selected(action.vehicles, Stream::Action(index));
         let mut longest = 0.0_f64;
         for &j in &members {
             let mut driver = self.drivers[j];
@@ -650,7 +650,7 @@ impl<S: Sampler> Simulation<S> {
         let Some((last, before)) = self.scenario.actions.split_last() else { return };
         // A share is drawn by its place in the list, which therefore stays.
         let first =
-            before.iter().rposition(|a| matches!(a.who, VehicleSelector::Share(_))).map_or(0, |k| k + 1);
+            before.iter().rposition(|a| matches!(a.vehicles, VehicleSelector::Share(_))).map_or(0, |k| k + 1);
         let replaced = |&k: &usize| {
             self.scenario.steps(before[k].at) == self.step
                 && self.scenario.steps(last.at) == self.step
@@ -695,9 +695,9 @@ impl<S: Sampler> Simulation<S> {
     }
 
     fn apply(&mut self, index: usize) {
-        let Action { who, effects, .. } = self.scenario.actions[index].clone();
+        let Action { vehicles, effects, .. } = self.scenario.actions[index].clone();
         let mut any_set = false;
-        for j in self.scenario.members(who, Stream::Action(index)) {
+        for j in self.scenario.selected(vehicles, Stream::Action(index)) {
             for &effect in &effects {
                 match effect {
                     Effect::Set(field, value) => {

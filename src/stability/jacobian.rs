@@ -74,12 +74,12 @@ pub fn numerical_eigenvalues(drivers: &[Driver], length: f64) -> Result<Vec<Jaco
     if vehicles > MOST_VEHICLES {
         let allowed =
             format!("at most {MOST_VEHICLES} vehicles in the lane for the eigenvalues of its Jacobian");
-        return Err(Error::new("vehicles", vehicles, allowed));
+        return Err(Error::too_large("vehicles", vehicles, allowed));
     }
     let equilibrium = equilibrium(drivers, length).unwrap_or_default();
     let slopes: Vec<_> = drivers.iter().map(|driver| equilibrium.slope(&driver.law())).collect();
     let mut numerical = eigenvalues(jacobian(&slopes)).ok_or_else(|| {
-        Error::new("vehicles", vehicles, "a lane for which the eigenvalue solver converges")
+        Error::conflict("vehicles", vehicles, "a lane for which the eigenvalue solver converges")
     })?;
     let theory = theory(&DriverClasses::new(slopes.into_iter().map(|slope| (slope, 0.0))));
     let of_mode = |(k, theory): (usize, Complex64)| {
@@ -237,10 +237,10 @@ mod tests {
         let heterogeneous =
             ["1-9:sensitivity=1.6,max-speed=35".parse().unwrap(), "20:min-headway=9".parse().unwrap()];
         for vehicles in [1, 2, 3, 50, 51, 120] {
-            for exceptions in [Vec::new(), heterogeneous.to_vec()] {
+            for overrides in [Vec::new(), heterogeneous.to_vec()] {
                 let scenario = Scenario { vehicles, ..Scenario::default() };
-                let exceptions = if vehicles < 20 { Vec::new() } else { exceptions };
-                let mut drivers = lanes_of(&Scenario { exceptions, ..scenario }).remove(0).drivers;
+                let overrides = if vehicles < 20 { Vec::new() } else { overrides };
+                let mut drivers = lanes_of(&Scenario { overrides, ..scenario }).remove(0).drivers;
                 for _ in 0..2 {
                     let found = numerical_eigenvalues(&drivers, 1000.0).unwrap();
                     assert_eq!(found.len(), vehicles - 1);

@@ -11,7 +11,8 @@
 //! | [`roots`] | the leading roots of every mode of a lane |
 //! | [`report`] | everything that the theory says of the least stable lane |
 //! | [`summary`] | the few numbers of the page's sentence |
-//! | [`stability_diagram`] | critical reaction times and growth rates over the number of vehicles; sweeps |
+//! | [`stability_diagram`] | critical reaction times and growth rates over the number of vehicles |
+//! | [`sweep`] | the report for every value of one parameter |
 //! | [`stable_ranges`] | which numbers of vehicles and which sensitivities are stable |
 //! | [`stabilizing_drivers`] | how many changed drivers stabilize a ring |
 //!
@@ -40,5 +41,6 @@ pub mod stability_diagram;
 pub mod stabilizing_drivers;
 pub mod stable_ranges;
 pub mod summary;
+pub mod sweep;
 
 pub use num_complex::Complex64;

@@ -341,7 +341,7 @@ mod tests {
     #[test]
     fn the_report_is_on_the_least_stable_lane() {
         let mut scenario = Scenario { vehicles: 101, lanes: 3, ..scenario(0.9) };
-        scenario.exceptions = vec!["36-68:reaction-time=0.95".parse().unwrap()];
+        scenario.overrides = vec!["36-68:reaction-time=0.95".parse().unwrap()];
         let report = Report::of(&scenario);
         assert_eq!((report.lane, report.vehicles), (2, 33));
         scenario.start = Start::OneLane(2);
@@ -351,13 +351,13 @@ mod tests {
     #[test]
     fn heterogeneous_drivers_have_a_critical_scale() {
         let mut scenario = scenario(0.75);
-        scenario.exceptions = vec!["1-4:reaction-time=0".parse().unwrap()];
+        scenario.overrides = vec!["1-4:reaction-time=0".parse().unwrap()];
         let report = Report::of(&scenario);
         assert!(!report.stable && !report.homogeneous);
         assert_eq!(report.all_roots_found, Some(true));
         let scale = report.critical_scale_discrete.unwrap();
         assert!((0.95..1.0).contains(&scale), "{scale}");
-        scenario.exceptions = vec!["11-15:reaction-time=0".parse().unwrap()];
+        scenario.overrides = vec!["11-15:reaction-time=0".parse().unwrap()];
         assert!(Report::of(&scenario).stable);
     }
 

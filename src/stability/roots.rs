@@ -182,7 +182,7 @@ mod tests {
             scenario
         };
         let mut heterogeneous = scenario(0.75);
-        heterogeneous.exceptions = vec!["1-4:reaction-time=0.3".parse().unwrap()];
+        heterogeneous.overrides = vec!["1-4:reaction-time=0.3".parse().unwrap()];
         for scenario in [scenario(0.5), scenario(0.75), heterogeneous] {
             let lane = lanes_of(&scenario).remove(0);
             let roots = LaneRoots::of(&lane, 1000.0, 0.01, 1, 200);

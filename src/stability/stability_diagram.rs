@@ -1,6 +1,5 @@
 //! The stability diagram of one lane of homogeneous drivers: critical reaction times against the number of vehicles, and
-//! the map of the largest growth rate over number and reaction time. And tables of what theory says of a scenario while
-//! a parameter is swept.
+//! the map of the largest growth rate over number and reaction time.
 //!
 //! ```
 //! use ringroad::scenario::Scenario;
@@ -16,13 +15,8 @@
 //! ```
 
 use super::homogeneous::{HomogeneousRing, Time};
-use super::report::Report;
-use crate::error::{Error, quoted};
-use crate::format::table::{Column, Table};
 use crate::scenario::Scenario;
 use crate::scenario::driver::Driver;
-use crate::scenario::parameters::{PARAMETERS, Parameter};
-use crate::scenario::value::Kind;
 
 /// The lane of the diagram: any number of homogeneous drivers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,162 +112,9 @@ impl StabilityDiagram {
     }
 }
 
-/// A parameter and the values that a sweep gives it: `vehicles=2:133`, `reaction-time=0:1.5:0.05`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sweep {
-    /// The parameter.
-    pub parameter: &'static Parameter,
-    /// Its values.
-    pub values: Vec<f64>,
-}
-
-/// More rows than anyone reads.
-const MOST_VALUES: f64 = 100_000.0;
-
-impl std::str::FromStr for Sweep {
-    type Err = Error;
-    fn from_str(text: &str) -> Result<Self, Error> {
-        let form = || {
-            Error::new(
-                "sweep",
-                quoted(text),
-                "PARAMETER=FROM:TO or PARAMETER=FROM:TO:STEP, such as vehicles=2:133",
-            )
-        };
-        let (name, range) = text.split_once('=').ok_or_else(form)?;
-        let parameter = Parameter::named(name.trim()).ok_or_else(|| {
-            let names: Vec<_> = PARAMETERS.iter().map(Parameter::hyphenated).collect();
-            Error::new("parameter", quoted(name), names.join(", "))
-        })?;
-        let parts: Vec<_> = range.split(':').collect();
-        let (from, to, step) = match parts[..] {
-            [from, to] => (from, to, None),
-            [from, to, step] => (from, to, Some(step)),
-            _ => return Err(form()),
-        };
-        let number = |text| parameter.parse(text)?.number().ok_or_else(form);
-        let (from, to) = (number(from)?, number(to)?);
-        let whole = matches!(parameter.kind, Kind::Whole(_));
-        let given = step.map(|step| step.trim().parse().map_err(|_| form())).transpose()?;
-        if let Some(step) = given.filter(|step| whole && *step != f64::trunc(*step)) {
-            let allowed = format!("a whole step: {} is a whole number", parameter.hyphenated());
-            return Err(Error::new("step", step, allowed));
-        }
-        if from == to {
-            return Ok(Self { parameter, values: vec![from] });
-        }
-        let step = given.unwrap_or(if whole { 1.0 } else { (to - from) / 100.0 });
-        let count = ((to - from) / step + 1e-9).floor();
-        if !(0.0..MOST_VALUES).contains(&count) {
-            let most = format!("at most {MOST_VALUES} values");
-            return Err(match given {
-                Some(step) => {
-                    Error::new("step", step, format!("a step that leads from {from} to {to} in {most}"))
-                }
-                None if count < 0.0 => Error::new(
-                    "range",
-                    quoted(range),
-                    format!("{to}:{from}, or a step downwards: {from}:{to}:-1"),
-                ),
-                None => {
-                    Error::new("range", quoted(range), format!("{most}, or a larger step: {from}:{to}:STEP"))
-                }
-            });
-        }
-        // Steps such as 0.05 add up to 0.15000000000000002; what is meant is the nearest short decimal.
-        let value = |k: usize| ((from + k as f64 * step) * 1e9).round() / 1e9;
-        Ok(Self { parameter, values: (0..=count as usize).map(value).collect() })
-    }
-}
-
-/// What the theory says of the scenario for every value of a parameter, as a table. Each of them must be a scenario that
-/// can be run.
-pub fn sweep(scenario: &Scenario, sweep: &Sweep) -> Result<Table, Error> {
-    let mut reports = Vec::with_capacity(sweep.values.len());
-    for &value in &sweep.values {
-        let mut scenario = scenario.clone();
-        scenario.set(sweep.parameter, value)?;
-        scenario.validate().map_err(|e| e.within(format!("{}={value}", sweep.parameter.hyphenated())))?;
-        reports.push(Report::of(&scenario));
-    }
-    let column = |of: &dyn Fn(&Report) -> Option<f64>| -> Vec<f64> {
-        reports.iter().map(|r| of(r).unwrap_or(f64::NAN)).collect()
-    };
-    let parameter = sweep.parameter;
-    let number = |q: Option<usize>| q.map(|q| q as f64);
-    Ok(Table::new(vec![
-        Column::float(parameter.name, parameter.unit, parameter.meaning, sweep.values.clone()),
-        Column::float(
-            "critical_reaction_time_s",
-            "s",
-            "largest stable reaction time, continuous time; none where everything is stable",
-            column(&|r| r.critical_reaction_time_s),
-        ),
-        Column::float(
-            "critical_reaction_time_discrete_s",
-            "s",
-            "the same for the simulation with its steps",
-            column(&|r| r.critical_reaction_time_discrete_s),
-        ),
-        Column::float(
-            "newell_limit_s",
-            "s",
-            "1/(2c), the limit of long waves",
-            column(&|r| r.newell_limit_s),
-        ),
-        Column::float(
-            "max_growth_rate_per_s",
-            "1/s",
-            "largest growth rate at the scenario's reaction time, continuous time",
-            column(&|r| r.max_growth_rate_per_s),
-        ),
-        Column::float(
-            "max_growth_rate_discrete_per_s",
-            "1/s",
-            "the same for the simulation at the delay in force",
-            column(&|r| r.max_growth_rate_discrete_per_s),
-        ),
-        Column::float(
-            "fastest_mode",
-            "",
-            "the mode that grows fastest, continuous time",
-            column(&|r| number(r.fastest_mode)),
-        ),
-        Column::float(
-            "fastest_mode_discrete",
-            "",
-            "the mode that grows fastest in the simulation",
-            column(&|r| number(r.fastest_mode_discrete)),
-        ),
-        Column::text(
-            "stable",
-            "whether no disturbance grows in the simulation: yes or no",
-            reports.iter().map(|r| if r.stable { "yes".into() } else { "no".into() }).collect(),
-        ),
-    ]))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn curves_and_sweep_say_the_same() {
-        let scenario = Scenario::default();
-        let diagram = StabilityDiagram::of(&scenario);
-        let curves = diagram.curves(2..=133);
-        let table = sweep(&scenario, &"vehicles=2:133".parse().unwrap()).unwrap();
-        let continuous = table.floats("critical_reaction_time_s").unwrap();
-        let discrete = table.floats("critical_reaction_time_discrete_s").unwrap();
-        assert_eq!(table.rows(), 132);
-        for k in 0..132 {
-            assert_eq!(curves.continuous_s[k], Some(continuous[k]));
-            assert_eq!(curves.discrete_s[k], Some(discrete[k]));
-        }
-        // τ(N) falls with N, to Newell's 0.5 s at the jam.
-        assert!(continuous.windows(2).all(|w| w[1] < w[0]));
-        assert!((continuous[131] - 0.500_282).abs() < 5e-7);
-    }
 
     /// The curve of mode 1 is that of the ring; a shorter wave has a larger critical delay.
     #[test]
@@ -318,36 +159,5 @@ mod tests {
         let spread = road.numbers(50, 400);
         assert!(spread.len() <= 401 && spread.last() == Some(&13_333), "{}", spread.len());
         assert!(spread.windows(2).all(|w| w[0] < w[1]));
-    }
-
-    #[test]
-    fn sweeps_are_read_and_refused() {
-        let values = |text: &str| text.parse::<Sweep>().unwrap().values;
-        assert_eq!(values("vehicles=2:5"), [2.0, 3.0, 4.0, 5.0]);
-        assert_eq!(values("reaction-time=0:0.2:0.05"), [0.0, 0.05, 0.1, 0.15, 0.2]);
-        assert_eq!(values("sensitivity=1:2").len(), 101);
-        assert_eq!(values("vehicles=5:2:-1"), [5.0, 4.0, 3.0, 2.0]);
-        for (bad, named) in [
-            ("vehicles", "PARAMETER=FROM:TO"),
-            ("cars=1:2", "parameter: “cars” is not allowed; allowed: vehicles, "),
-            ("vehicles=1", "PARAMETER=FROM:TO"),
-            ("vehicles=0:5", "from 1 to"),
-            ("vehicles=2:5:0", "step: 0 "),
-            ("vehicles=2:5:-1", "step: -1 "),
-            ("vehicles=5:2", "“5:2” is not allowed; allowed: 2:5, or a step downwards: 5:2:-1"),
-            ("vehicles=1:200000", "“1:200000” is not allowed; allowed: at most 100000 values"),
-            ("vehicles=2:5:0.5", "step: 0.5 is not allowed; allowed: a whole step"),
-            ("vehicles=2:5:NaN", "step: NaN "),
-            ("reaction-time=0:1:x", "PARAMETER=FROM:TO:STEP"),
-        ] {
-            let message = bad.parse::<Sweep>().unwrap_err().to_string();
-            assert!(message.contains(named), "{bad}: {message}");
-        }
-        assert!(
-            sweep(&Scenario::default(), &"vehicles=190:210".parse().unwrap())
-                .unwrap_err()
-                .to_string()
-                .contains("vehicles=200")
-        );
     }
 }

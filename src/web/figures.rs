@@ -38,7 +38,7 @@ impl FigureWork {
         let count = figure.tasks(Size::Full).len();
         if piece >= count {
             let allowed = format!("0 to {} for {id}", count - 1);
-            return Err(refusal(Error::new("piece", piece, allowed)));
+            return Err(refusal(Error::out_of_range("piece", piece, allowed)));
         }
         Ok(Self(figure.start(Size::Full, piece)))
     }

@@ -94,8 +94,9 @@ impl Lab {
     /// Opens a preset; its end is open.
     pub fn open_preset(&mut self, name: &str) -> Result<String, JsError> {
         let found = presets::presets().into_iter().find(|p| p.name == name);
-        let mut scenario =
-            found.ok_or_else(|| refusal(Error::new("preset", quoted(name), "a name of the list")))?.scenario;
+        let mut scenario = found
+            .ok_or_else(|| refusal(Error::unknown("preset", quoted(name), "a name of the list")))?
+            .scenario;
         scenario.until = link::base().until;
         self.open(&scenario)?;
         Ok("[]".into())
@@ -403,7 +404,7 @@ fn quantity(name: &str) -> Result<Quantity, JsError> {
         "difference" => Ok(Quantity::Difference),
         "speed" => Ok(Quantity::Speed),
         "frustration" => Ok(Quantity::Frustration),
-        other => Err(refusal(Error::new("colour", quoted(other), "difference, speed, frustration"))),
+        other => Err(refusal(Error::unknown("colour", quoted(other), "difference, speed, frustration"))),
     }
 }
 

@@ -23,7 +23,7 @@ fn setting() -> impl Strategy<Value = (DriverField, Value)> {
     field.prop_map(|(field, value)| (field, Value::Number(value)))
 }
 
-fn who(vehicles: usize) -> impl Strategy<Value = VehicleSelector> {
+fn selector(vehicles: usize) -> impl Strategy<Value = VehicleSelector> {
     prop_oneof![
         1 => Just(VehicleSelector::All),
         6 => (1..=vehicles).prop_map(VehicleSelector::Vehicle),
@@ -51,11 +51,8 @@ pub fn action(vehicles: usize, length: f64, until: f64) -> impl Strategy<Value =
         3 => 0.0..until,
         1 => Just(0.5 * until),
     ];
-    (at, who(vehicles), prop::collection::vec(effect(length), 1..3)).prop_map(|(at, who, effects)| Action {
-        at,
-        who,
-        effects,
-    })
+    (at, selector(vehicles), prop::collection::vec(effect(length), 1..3))
+        .prop_map(|(at, vehicles, effects)| Action { at, vehicles, effects })
 }
 
 /// Number of vehicles and length of the ring.
@@ -111,18 +108,18 @@ pub fn scenarios(lanes: RangeInclusive<usize>) -> impl Strategy<Value = Scenario
     lanes
         .prop_flat_map(base)
         .prop_flat_map(|scenario| {
-            let exception = (who(scenario.vehicles), prop::collection::vec(setting(), 1..3))
-                .prop_map(|(who, values)| DriverOverride { who, values });
+            let differing = (selector(scenario.vehicles), prop::collection::vec(setting(), 1..3))
+                .prop_map(|(vehicles, values)| DriverOverride { vehicles, values });
             let action = || action(scenario.vehicles, scenario.length, scenario.until);
             let actions = prop_oneof![
                 Just(Vec::new()),
                 prop::collection::vec(action(), 1..3),
                 prop::collection::vec(action(), 3..8),
             ];
-            (Just(scenario), prop::collection::vec(exception, 0..4), actions)
+            (Just(scenario), prop::collection::vec(differing, 0..4), actions)
         })
-        .prop_filter_map("a scenario that is refused", |(mut scenario, exceptions, actions)| {
-            (scenario.exceptions, scenario.actions) = (exceptions, actions);
+        .prop_filter_map("a scenario that is refused", |(mut scenario, overrides, actions)| {
+            (scenario.overrides, scenario.actions) = (overrides, actions);
             scenario.validate().is_ok().then_some(scenario)
         })
 }

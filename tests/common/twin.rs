@@ -335,7 +335,7 @@ impl<S: Sampler> Twin<S> {
 
     fn act(&mut self, place: usize, action: &Action) {
         let n = self.vehicles();
-        let members: Vec<usize> = match action.who {
+        let members: Vec<usize> = match action.vehicles {
             VehicleSelector::All => (0..n).collect(),
             VehicleSelector::Vehicle(number) => vec![number - 1],
             VehicleSelector::Range(first, last) => (first - 1..last).collect(),
