@@ -4,6 +4,7 @@ use super::plan::Plan;
 use crate::error::Error;
 use crate::format::table::{Column, Values};
 use crate::measurement::probe::measure;
+use crate::numerics::parallel;
 use crate::simulation::Simulation;
 use std::sync::Mutex;
 
@@ -70,15 +71,19 @@ impl Plan {
     }
 }
 
-/// Why not everything was computed.
+/// Why not every run was computed.
 enum Stop<E> {
     Cancelled,
     Failed(E),
 }
 
-/// Computes these runs of the plan, on as many threads as asked for (all cores by default; one at a time without the
-/// feature `parallel` and in a browser), and hands each to `finished` as soon as it is there, in any order, never two
-/// at once. `progress` is as in [`Plan::run`]. Returns whether it went on to the end.
+/// Computes these runs of the plan and gives each to `finished` when it ends: in any order, but never two at once.
+///
+/// `threads` is as in [`parallel::try_map`]: by default one for each core. `progress` is as in [`Plan::run`]; it is
+/// called from all threads. Returns whether all runs were computed (`false` where `progress` cancelled).
+///
+/// # Errors
+/// The first error of a run or of `finished`; no further run begins after it.
 pub fn run_all<E: From<Error> + Send>(
     plan: &Plan,
     numbers: &[u64],
@@ -87,36 +92,15 @@ pub fn run_all<E: From<Error> + Send>(
     finished: &mut (dyn FnMut(Run) -> Result<(), E> + Send),
 ) -> Result<bool, E> {
     let finished = Mutex::new(finished);
-    let one = |&number: &u64| {
-        let run = plan.run(number, &mut |work| progress(work)).map_err(|e| Stop::Failed(e.into()))?;
+    let one = |k: usize| {
+        let run = plan.run(numbers[k], &mut |work| progress(work)).map_err(|e| Stop::Failed(e.into()))?;
         let run = run.ok_or(Stop::Cancelled)?;
         let mut finished = finished.lock().map_err(|_| Stop::Cancelled)?;
         finished(run).map_err(Stop::Failed)
     };
-    match each(numbers, threads, one) {
-        Ok(()) => Ok(true),
+    match parallel::try_map(numbers.len(), threads, one) {
+        Ok(_) => Ok(true),
         Err(Stop::Cancelled) => Ok(false),
         Err(Stop::Failed(error)) => Err(error),
     }
-}
-
-#[cfg(all(feature = "parallel", not(target_arch = "wasm32")))]
-fn each<E: Send>(
-    numbers: &[u64],
-    threads: Option<usize>,
-    one: impl Fn(&u64) -> Result<(), E> + Sync,
-) -> Result<(), E> {
-    use rayon::prelude::*;
-    // Runs differ in length by orders of magnitude; so each is a task of its own.
-    let all = || numbers.par_iter().with_max_len(1).try_for_each(&one);
-    match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
-        Some(Ok(pool)) => pool.install(all),
-        // Where the system refuses so many threads, those that there are do it.
-        Some(Err(_)) | None => all(),
-    }
-}
-
-#[cfg(not(all(feature = "parallel", not(target_arch = "wasm32"))))]
-fn each<E>(numbers: &[u64], _threads: Option<usize>, one: impl Fn(&u64) -> Result<(), E>) -> Result<(), E> {
-    numbers.iter().try_for_each(one)
 }

@@ -4,6 +4,7 @@ pub mod complex;
 pub mod exp;
 pub mod lambert_w;
 pub mod least_squares;
+pub mod parallel;
 pub mod random;
 pub mod simd;
 pub mod statistics;
