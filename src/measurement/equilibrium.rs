@@ -4,7 +4,8 @@
 //! for equal drivers dv/dh, for different ones the harmonic mean of theirs, which is what long waves feel. The
 //! largest flow is that over all densities, with drivers in these proportions.
 
-use super::probe::{Due, Probe, Schedule};
+use super::due_rows::DueRows;
+use super::probe::Probe;
 use crate::format::table::{Column, Table};
 use crate::scenario::driver::{Capacity, Driver, equilibrium};
 use crate::simulation::Simulation;
@@ -23,22 +24,22 @@ struct Row {
 /// The probe of the table `equilibrium`.
 #[derive(Clone, Debug)]
 pub struct Equilibria {
-    schedule: Schedule,
     /// Speed laws of each lane's drivers when last looked at, and of the lane being looked at.
     known: Vec<Option<Vec<Driver>>>,
     drivers: Vec<Driver>,
-    /// Time, lane, values.
-    rows: Vec<(f64, usize, Row)>,
+    /// Time (s), lane (from 0), values.
+    rows: DueRows<(f64, usize, Row)>,
 }
 
 impl Equilibria {
     /// A look every so many steps.
     pub fn new(every: u64) -> Self {
-        Self { schedule: Schedule::new(every), known: Vec::new(), drivers: Vec::new(), rows: Vec::new() }
+        Self { known: Vec::new(), drivers: Vec::new(), rows: DueRows::every(every) }
     }
 }
 
-fn law(driver: &Driver) -> (f64, f64, f64) {
+/// What of a driver decides the equilibrium: V (m/s), λ (1/s) and d (m).
+pub(super) fn law(driver: &Driver) -> (f64, f64, f64) {
     (driver.max_speed, driver.sensitivity, driver.min_headway)
 }
 
@@ -92,15 +93,11 @@ fn same(a: &Row, b: &Row) -> bool {
 
 impl Probe for Equilibria {
     fn observe(&mut self, simulation: &Simulation) {
-        let due = self.schedule.due(simulation);
-        if due == Due::Nothing {
-            return;
-        }
+        let Some(replaced) = self.rows.begin(simulation) else { return };
         let time = simulation.time();
         let lanes = simulation.vehicles_per_lane().len();
         self.known.resize(lanes, None);
-        if due == Due::Again {
-            self.rows.retain(|row| row.0 != time);
+        if !replaced.is_empty() {
             self.known.fill(None);
         }
         for lane in 0..lanes {
@@ -116,7 +113,7 @@ impl Probe for Equilibria {
             }
             let row = values(&self.drivers, simulation.scenario().length);
             self.known[lane].get_or_insert_default().clone_from(&self.drivers);
-            let before = self.rows.iter().rev().find(|r| r.1 == lane);
+            let before = self.rows.rows().iter().rev().find(|r| r.1 == lane);
             if !before.is_some_and(|(_, _, before)| same(before, &row)) {
                 self.rows.push((time, lane, row));
             }
@@ -124,21 +121,11 @@ impl Probe for Equilibria {
     }
 
     fn table(&self) -> Table {
-        let column = |f: fn(&Row) -> f64| self.rows.iter().map(|r| f(&r.2)).collect();
+        let column = |f: fn(&Row) -> f64| self.rows.rows().iter().map(|r| f(&r.2)).collect();
         Table::new(vec![
-            Column::float(
-                "time_s",
-                "s",
-                "time from which on it holds",
-                self.rows.iter().map(|r| r.0).collect(),
-            ),
-            Column::whole("lane", "", "the lane", self.rows.iter().map(|r| r.1 as u64 + 1).collect()),
-            Column::whole(
-                "vehicles",
-                "",
-                "vehicles in it",
-                self.rows.iter().map(|r| r.2.vehicles as u64).collect(),
-            ),
+            Column::float("time_s", "s", "time from which on it holds", self.rows.each(|r| r.0)),
+            Column::whole("lane", "", "the lane", self.rows.each(|r| r.1 as u64 + 1)),
+            Column::whole("vehicles", "", "vehicles in it", self.rows.each(|r| r.2.vehicles as u64)),
             Column::float("equilibrium_speed_m_per_s", "m/s", "v∞, the common speed", column(|r| r.speed)),
             Column::float("density_veh_per_m", "veh/m", "ρ", column(|r| r.density)),
             Column::float("flow_veh_per_s", "veh/s", "q = ρ·v∞", column(|r| r.flow)),

@@ -6,7 +6,8 @@
 //! counting the vehicles between neighbouring places and summing up along the ring. So the probe keeps, for each
 //! row to come, one whole number a place instead of the positions of all vehicles.
 
-use super::probe::{Due, Probe, Schedule};
+use super::due_rows::DueRows;
+use super::probe::Probe;
 use super::speed_map::{centre, centres_below, map_table};
 use crate::format::table::{Column, Table};
 use crate::scenario::Scenario;
@@ -15,7 +16,6 @@ use crate::simulation::Simulation;
 /// The probe of the tables `flow` and `flow-map`.
 #[derive(Clone, Debug)]
 pub struct Flow {
-    schedule: Schedule,
     every: u64,
     /// δ in steps and in s.
     window: u64,
@@ -29,8 +29,8 @@ pub struct Flow {
     /// The step at which each slot was filled.
     begun_at: Vec<Option<u64>>,
     passings: Vec<i64>,
-    times: Vec<f64>,
-    flows: Vec<f64>,
+    /// At each time the flow past each place, veh/s.
+    flows: DueRows<f64>,
 }
 
 impl Flow {
@@ -47,7 +47,6 @@ impl Flow {
     fn new(scenario: &Scenario, every: u64, window: u64, place: Option<f64>, bins: usize) -> Self {
         let slots = (window / every) as usize + 2;
         Self {
-            schedule: Schedule::new(every),
             every,
             window,
             seconds: window as f64 * scenario.time_step,
@@ -57,8 +56,7 @@ impl Flow {
             begun: vec![0; slots * bins],
             begun_at: vec![None; slots],
             passings: vec![0; bins],
-            times: Vec::new(),
-            flows: Vec::new(),
+            flows: DueRows::every(every),
         }
     }
 
@@ -105,9 +103,9 @@ impl Flow {
 impl Probe for Flow {
     fn observe(&mut self, simulation: &Simulation) {
         let step = simulation.step_index();
-        let due = self.schedule.due(simulation);
+        let due = self.flows.begin(simulation).is_some();
         let begins = (step + self.window).is_multiple_of(self.every);
-        if due == Due::Nothing && !begins {
+        if !due && !begins {
             return;
         }
         self.count(simulation);
@@ -117,14 +115,9 @@ impl Probe for Flow {
             self.begun_at[slot] = Some(step);
             self.begun[slot * bins..][..bins].copy_from_slice(&self.passings);
         }
-        if due == Due::Nothing {
+        if !due {
             return;
         }
-        if due == Due::Again {
-            self.times.pop();
-            self.flows.truncate(self.times.len() * bins);
-        }
-        self.times.push(simulation.time());
         let slot = (step / self.every) as usize % self.begun_at.len();
         let known = step >= self.window && self.begun_at[slot] == Some(step - self.window);
         for k in 0..bins {
@@ -135,10 +128,13 @@ impl Probe for Flow {
 
     fn table(&self) -> Table {
         let meaning = format!("flow over the last {} s, all lanes together; none before", self.seconds);
-        let flow = Column::float("flow_veh_per_s", "veh/s", meaning, self.flows.clone());
+        let (name, unit) = ("flow_veh_per_s", "veh/s");
         match self.place {
-            Some(_) => Table::new(vec![Column::float("time_s", "s", "time", self.times.clone()), flow]),
-            None => map_table(&self.times, self.bins, self.length, flow),
+            Some(_) => Table::new(vec![
+                self.flows.time_column(),
+                Column::float(name, unit, meaning, self.flows.rows().to_vec()),
+            ]),
+            None => map_table(&self.flows, self.bins, self.length, name, unit, meaning),
         }
     }
 }

@@ -17,6 +17,7 @@
 
 pub mod cyclic_growth;
 pub mod driver_groups;
+mod due_rows;
 pub mod equilibrium;
 pub mod events;
 pub mod flow;
@@ -27,7 +28,7 @@ pub mod overview;
 pub mod probe;
 pub mod provenance;
 pub mod settings;
-mod spectrum;
+pub(crate) mod spectrum;
 pub mod speed_map;
 pub mod speeds;
 pub mod trajectories;

@@ -4,7 +4,9 @@
 //! that all vehicles together have driven in the time T, the mean speed is s/(N·T) and the mean flow, all lanes
 //! together, s/(L·T).
 
-use super::probe::{Due, Probe, Schedule};
+use super::due_rows::DueRows;
+use super::lanes::{imbalance, lane_changes};
+use super::probe::Probe;
 use crate::format::table::{Column, Table};
 use crate::scenario::Scenario;
 use crate::simulation::Simulation;
@@ -27,16 +29,12 @@ impl Look {
         // Seen from one of them, equal speeds deviate by nothing.
         let mean = speeds[0] + speeds.iter().map(|v| v - speeds[0]).sum::<f64>() / n as f64;
         let squares: f64 = speeds.iter().map(|v| (v - mean) * (v - mean)).sum();
-        let changes: u64 = (0..n).map(|j| u64::from(simulation.lane_changes(j))).sum();
-        let counts = simulation.vehicles_per_lane();
-        let most = counts.iter().max().copied().unwrap_or(0);
-        let fewest = counts.iter().min().copied().unwrap_or(0);
         Self {
             time: simulation.time(),
             distance: (0..n).map(|j| simulation.distance(j)).sum(),
             speed_deviation: (squares / n as f64).sqrt(),
-            lane_changes: changes as f64 / n as f64,
-            imbalance: (most - fewest) as u64,
+            lane_changes: lane_changes(simulation) as f64 / n as f64,
+            imbalance: imbalance(simulation.vehicles_per_lane()) as u64,
         }
     }
 }
@@ -84,36 +82,27 @@ fn columns(scenario: (f64, f64), span: &str, looks: &[Look]) -> Vec<Column> {
 /// The probe of the table `overview`.
 #[derive(Clone, Debug)]
 pub struct Overview {
-    schedule: Schedule,
     /// N and L.
     ring: (f64, f64),
-    looks: Vec<Look>,
+    looks: DueRows<Look>,
 }
 
 impl Overview {
     /// Rows every so many steps.
     pub fn new(scenario: &Scenario, every: u64) -> Self {
         let ring = (scenario.vehicles as f64, scenario.length);
-        Self { schedule: Schedule::new(every), ring, looks: Vec::new() }
+        Self { ring, looks: DueRows::every(every) }
     }
 }
 
 impl Probe for Overview {
     fn observe(&mut self, simulation: &Simulation) {
-        match self.schedule.due(simulation) {
-            Due::Nothing => return,
-            Due::Row => {}
-            Due::Again => {
-                self.looks.pop();
-            }
-        }
-        self.looks.push(Look::at(simulation));
+        self.looks.record(simulation, || Look::at(simulation));
     }
 
     fn table(&self) -> Table {
-        let times = self.looks.iter().map(|l| l.time).collect();
-        let mut all = vec![Column::float("time_s", "s", "time", times)];
-        all.extend(columns(self.ring, "since the row before", &self.looks));
+        let mut all = vec![self.looks.time_column()];
+        all.extend(columns(self.ring, "since the row before", self.looks.rows()));
         Table::new(all)
     }
 }
