@@ -4,7 +4,7 @@ use super::parameter_values::ParameterValues;
 use crate::error::{Error, quoted};
 use crate::format::table::Table;
 use crate::measurement::Measurement;
-use crate::measurement::provenance::{PLAN, header_line, with_header};
+use crate::measurement::header::{Word, with_header};
 use crate::scenario::Scenario;
 use crate::scenario::action::VehicleSelector;
 use crate::scenario::parameters::Parameter;
@@ -132,12 +132,12 @@ impl Plan {
 
     /// A table of its runs as CSV, with the plan in the header.
     pub fn to_csv(&self, table: &Table) -> String {
-        with_header(table, &[&format!("{PLAN}{}", self.to_json())])
+        with_header(table, &[(Word::Plan, &self.to_json())])
     }
 
     /// The plan in the header of a file that [`Plan::to_csv`] wrote.
     pub fn from_csv(text: &str) -> Result<Self, Error> {
-        Self::from_json(header_line(text, PLAN)?).map_err(|e| e.within("CSV header"))
+        Self::from_json(Word::Plan.read(text)?).map_err(|e| e.within("CSV header"))
     }
 
     /// What is varied.

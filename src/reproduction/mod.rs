@@ -24,13 +24,12 @@ use crate::error::{Error, quoted};
 use crate::format::table::{Column, Table, Values};
 use crate::measurement::Measurement;
 use crate::measurement::probe::{Probe, measure};
-use crate::measurement::provenance::{VERSION, run_to_csv};
+use crate::measurement::provenance::{figure_to_csv, run_to_csv};
 use crate::plot::Plot;
 use crate::reproduction::claim::{Claim, Estimate, deviation, mean, student_95};
 use crate::scenario::Scenario;
 use crate::simulation::Simulation;
 use serde::Serialize;
-use std::fmt::Write as _;
 
 /// How much work to spend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,13 +138,7 @@ impl FigureTable {
     pub fn to_csv(&self) -> String {
         match &self.source {
             Source::Run(scenario, measurement) => run_to_csv(&self.table, scenario, measurement),
-            Source::Summary(scenario, how) => {
-                let mut out = format!("# ringroad {VERSION}\n# figure table {}\n", self.name);
-                let _ = writeln!(out, "# scenario {}", scenario.to_json());
-                let _ = writeln!(out, "# made from {how}");
-                self.table.write_body(&mut out);
-                out
-            }
+            Source::Summary(scenario, how) => figure_to_csv(&self.table, &self.name, scenario, how),
         }
     }
 }
