@@ -1,7 +1,7 @@
-//! Lane changes, distance and mean speed: of every vehicle, and of every group of like drivers. Also at a collision.
+//! Lane changes, distance and mean speed: of every vehicle, and of every group of equal drivers. Also at a collision.
 //!
-//! A group is named by what sets its drivers apart from the scenario's default driver in the first state seen:
-//! `sensitivity=2`, or `default`.
+//! A group is named by the parameters in which its drivers differ from the scenario's default driver in the first state:
+//! `sensitivity=2`, or `default` where there is none.
 
 use super::due_rows::DueRows;
 use super::probe::Probe;
@@ -33,14 +33,14 @@ fn name(driver: &Driver, default: &Driver) -> String {
 impl Groups {
     fn new(simulation: &Simulation) -> Self {
         let mut groups = Self::default();
-        let mut known: Vec<Driver> = Vec::new();
+        let mut drivers: Vec<Driver> = Vec::new();
         for j in 0..simulation.vehicles() {
             let driver = simulation.driver(j);
-            let group = known.iter().position(|d| d == driver).unwrap_or_else(|| {
-                known.push(*driver);
+            let group = drivers.iter().position(|d| d == driver).unwrap_or_else(|| {
+                drivers.push(*driver);
                 groups.names.push(name(driver, &simulation.scenario().driver));
                 groups.sizes.push(0);
-                known.len() - 1
+                drivers.len() - 1
             });
             groups.sizes[group] += 1;
             groups.of.push(group);
@@ -49,7 +49,7 @@ impl Groups {
     }
 }
 
-/// Mean speed since t = 0, m/s; none at t = 0.
+/// Mean speed since t = 0, m/s; NaN at t = 0.
 fn mean_speed(distance: f64, time: f64) -> f64 {
     if time > 0.0 { distance / time } else { f64::NAN }
 }

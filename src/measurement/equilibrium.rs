@@ -1,8 +1,8 @@
 //! The equilibrium of each lane: a row for each lane at the start, and again whenever its values have changed.
 //!
-//! v∞ is the common speed with Σ_j h_j(v∞) = L. c = n·dv∞/dL, the slope of that speed against the mean headway:
-//! for equal drivers dv/dh, for different ones the harmonic mean of theirs, which is what long waves feel. The
-//! largest flow is that over all densities, with drivers in these proportions.
+//! v∞ is the common speed with Σ_j h_j(v∞) = L. c = n·dv∞/dL is the slope of that speed against the mean headway: for
+//! homogeneous drivers dv/dh, for heterogeneous ones the harmonic mean of theirs, which determines the speed of long waves. The
+//! largest flow is the maximum over all densities, with drivers in the same proportions.
 
 use super::due_rows::DueRows;
 use super::probe::Probe;
@@ -24,7 +24,7 @@ struct Row {
 /// The probe of the table `equilibrium`.
 #[derive(Clone, Debug)]
 pub struct Equilibria {
-    /// Speed laws of each lane's drivers when last looked at, and of the lane being looked at.
+    /// The drivers of each lane when its equilibrium was computed last; `drivers` is those of the lane in work.
     known: Vec<Option<Vec<Driver>>>,
     drivers: Vec<Driver>,
     /// Time (s), lane (from 0), values.
@@ -32,13 +32,13 @@ pub struct Equilibria {
 }
 
 impl Equilibria {
-    /// A look every so many steps.
+    /// Compares every so many steps.
     pub fn new(every: u64) -> Self {
         Self { known: Vec::new(), drivers: Vec::new(), rows: DueRows::every(every) }
     }
 }
 
-/// What of a driver decides the equilibrium: V (m/s), λ (1/s) and d (m).
+/// The parameters of a driver on which the equilibrium depends: V (m/s), λ (1/s) and d (m).
 pub(super) fn law(driver: &Driver) -> (f64, f64, f64) {
     (driver.max_speed, driver.sensitivity, driver.min_headway)
 }
@@ -68,7 +68,7 @@ fn values(drivers: &[Driver], length: f64) -> Row {
     Row { vehicles: n, speed: lane.speed, density: lane.density, flow: lane.flow, slope, top }
 }
 
-/// The largest flow of different drivers, over their common speed v: 1/q = Σ h_j(v)/(n·v) has one minimum, since
+/// The largest flow of heterogeneous drivers over their common speed v: 1/q = Σ h_j(v)/(n·v) has one minimum, since
 /// every h_j is convex. Ternary search.
 fn capacity(drivers: &[Driver]) -> Capacity {
     let density = |v: f64| drivers.len() as f64 / drivers.iter().map(|d| d.headway(v)).sum::<f64>();
@@ -85,7 +85,7 @@ fn capacity(drivers: &[Driver]) -> Capacity {
     Capacity { density: density(v), flow: v * density(v) }
 }
 
-/// Equal to the last bit, none equal to none.
+/// Whether two rows are equal to the last bit; NaN equals NaN.
 fn same(a: &Row, b: &Row) -> bool {
     let bits = |r: &Row| [r.speed, r.density, r.flow, r.slope, r.top.density, r.top.flow].map(f64::to_bits);
     a.vehicles == b.vehicles && bits(a) == bits(b)
@@ -104,11 +104,11 @@ impl Probe for Equilibria {
             self.drivers.clear();
             let in_lane = (0..simulation.vehicles()).filter(|&j| simulation.lane(j) == lane);
             self.drivers.extend(in_lane.map(|j| *simulation.driver(j)));
-            let alike = |known: &Vec<Driver>| {
+            let is_same = |known: &Vec<Driver>| {
                 known.len() == self.drivers.len()
                     && known.iter().zip(&self.drivers).all(|(a, b)| law(a) == law(b))
             };
-            if self.known[lane].as_ref().is_some_and(alike) {
+            if self.known[lane].as_ref().is_some_and(is_same) {
                 continue;
             }
             let row = values(&self.drivers, simulation.scenario().length);

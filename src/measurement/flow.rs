@@ -1,10 +1,10 @@
 //! Flow past a place over a window δ, and its space-time map, all lanes together:
 //! `Q(t, x) = (1/δ)·Σ_j [⌊(X_j(t) − x)/L⌋ − ⌊(X_j(t − δ) − x)/L⌋]` with unwrapped positions X_j, so that every
-//! lap counts and a vehicle pushed back is counted back. It does not exist for t < δ.
+//! lap counts, and a vehicle that is displaced backwards is subtracted. Q does not exist for t < δ.
 //!
-//! The two sums are numbers of passings since ever; one state gives them for all places in O(N + places), by
-//! counting the vehicles between neighbouring places and summing up along the ring. So the probe keeps, for each
-//! row to come, one whole number a place instead of the positions of all vehicles.
+//! Each of the two sums is the number of passings since the beginning, up to a constant. One state gives it for all
+//! positions x in O(N + positions), by counting the vehicles between neighbouring positions and summing up along the ring. So
+//! the probe keeps, for each row to come, one whole number for each position instead of the positions of all vehicles.
 
 use super::due_rows::DueRows;
 use super::probe::Probe;
@@ -21,10 +21,10 @@ pub struct Flow {
     window: u64,
     seconds: f64,
     length: f64,
-    /// One place, or the centres of so many cells.
+    /// One position, m; none for the centres of `bins` cells.
     place: Option<f64>,
     bins: usize,
-    /// Passings at the beginning of the windows of the rows to come; row m·every is in slot m modulo their number.
+    /// Passings at the beginning of the windows of the rows to come; the row of step m·every has slot m modulo their number.
     begun: Vec<i64>,
     /// The step at which each slot was filled.
     begun_at: Vec<Option<u64>>,
@@ -34,7 +34,7 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// Flow past one place (m) every so many steps, over a window in steps.
+    /// Flow past one position (m) every so many steps, over a window in steps.
     pub fn at(scenario: &Scenario, every: u64, window: u64, place: f64) -> Self {
         Self::new(scenario, every, window, Some(place), 1)
     }
@@ -60,8 +60,8 @@ impl Flow {
         }
     }
 
-    /// Passings of every place since ever, up to a constant that the state does not change:
-    /// Σ_j ⌊(X_j − x)/L⌋ = Σ_j ⌊X_j/L⌋ − (number of vehicles short of x on their lap).
+    /// Counts the passings of every position since the beginning, up to a constant:
+    /// Σ_j ⌊(X_j − x)/L⌋ = Σ_j ⌊X_j/L⌋ − (number of vehicles that have not reached x on their lap).
     fn count(&mut self, simulation: &Simulation) {
         let mut laps = 0;
         self.passings.fill(0);
@@ -80,17 +80,17 @@ impl Flow {
             laps += lap as i64;
             let beyond = match self.place {
                 Some(place) => usize::from(place <= x),
-                // A centre that the vehicle stands on is passed.
+                // A centre at the position of the vehicle is passed.
                 None => self.centres_reached(x),
             };
             if beyond < self.bins {
                 self.passings[beyond] += 1;
             }
         }
-        let mut short = 0;
+        let mut before = 0;
         for passings in &mut self.passings {
-            short += *passings;
-            *passings = laps - short;
+            before += *passings;
+            *passings = laps - before;
         }
     }
 

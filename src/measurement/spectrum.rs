@@ -161,7 +161,7 @@ pub(super) fn linear_rate(slope: f64, mode: usize, vehicles: usize) -> f64 {
     2.0 * slope * libm::sin(PI * mode as f64 / vehicles as f64)
 }
 
-/// An amplitude of one mode in a growing series.
+/// The amplitude of one mode at a time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Amplitude {
     /// Time, s.

@@ -1,5 +1,4 @@
-//! Space-time map of speed in one lane. The speed at a place is that of the vehicle whose headway holds the
-//! place: the next one upstream.
+//! Space-time map of speed in one lane. The speed at a position is that of the next vehicle upstream.
 
 use super::due_rows::DueRows;
 use super::probe::Probe;
@@ -24,8 +23,8 @@ pub(super) fn centres_below(x: f64, bins: usize, length: f64) -> usize {
 }
 
 /// Fills `row` with the speeds at the centres of as many equal cells round the ring, in the given lane (from 0).
-/// A place belongs to the vehicle with x_j ≤ place < x_lead; NaN in an empty lane. Costs O(N + cells).
-pub fn speed_row(simulation: &Simulation, lane: usize, row: &mut [f64]) {
+/// A position x belongs to the vehicle with x_j ≤ x < x_lead; all are NaN in an empty lane. Costs O(N + cells).
+fn speed_row(simulation: &Simulation, lane: usize, row: &mut [f64]) {
     let (bins, length) = (row.len(), simulation.scenario().length);
     row.fill(f64::NAN);
     for j in (0..simulation.vehicles()).filter(|&j| simulation.lane(j) == lane) {
@@ -35,7 +34,7 @@ pub fn speed_row(simulation: &Simulation, lane: usize, row: &mut [f64]) {
             return;
         }
         if simulation.headway(j) <= 0.0 {
-            continue; // collided: holds no place
+            continue; // collided: no position belongs to it
         }
         let (x, x_ahead) = (simulation.position(j), simulation.position(ahead));
         let (first, end) = (centres_below(x, bins, length), centres_below(x_ahead, bins, length));
