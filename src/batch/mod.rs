@@ -1,8 +1,8 @@
 //! Batches: many runs of one scenario with different seeds (Monte Carlo) and with parameters varied over a grid.
 //!
-//! A [`Plan`] is plain data; it numbers its runs, and [`Plan::run`] gives any of them by itself. So the runs can be
-//! computed in any order, on any number of threads, workers or machines; a table is made from the [`Run`]s sorted by
-//! number, and its bytes depend on the plan alone.
+//! A [`Plan`] is plain data. It numbers its runs, and [`Plan::run`] computes any of them independently. So the runs can be
+//! computed in any order, on any number of threads or machines; a table is made from the [`Run`]s sorted by number,
+//! and its bytes depend on the plan alone.
 //!
 //! | term | meaning |
 //! |---|---|
@@ -14,16 +14,40 @@
 //! | file | subject |
 //! |---|---|
 //! | [`plan`] | which runs there are |
-//! | [`run`] | computing them, one or all |
-//! | [`rows`] | a row a run |
-//! | [`summary`] | what the runs of a cell say together |
-//! | [`record`] | finished runs as text: to continue, to spread and to merge |
+//! | [`run`] | computing runs, one or all |
+//! | `rows` | a table of all runs |
+//! | `summary` | statistics over the runs of each cell |
+//! | [`record`] | finished runs as text: to continue a batch, and to merge shards |
+//!
+//! ```
+//! use ringroad::batch::{Plan, run_all};
+//! use ringroad::error::Error;
+//! use ringroad::measurement::Measurement;
+//! use ringroad::scenario::Scenario;
+//! use std::collections::BTreeMap;
+//!
+//! let scenario = Scenario { until: 10.0, ..Scenario::default() };
+//! let vary = vec!["vehicles=20,40".parse()?];
+//! let plan = Plan::new(scenario, vary, 1, Measurement::named("outcome")?)?;
+//!
+//! let numbers: Vec<u64> = (0..plan.runs()).collect();
+//! let mut runs = BTreeMap::new();
+//! run_all(&plan, &numbers, None, &|_| true, &mut |run| {
+//!     runs.insert(run.number, run);
+//!     Ok::<(), Error>(())
+//! })?;
+//!
+//! let table = plan.table(&runs);
+//! assert_eq!(table.wholes("vehicles"), Some(&[20, 40][..]));
+//! assert_eq!(table.texts("outcome").unwrap(), ["end", "end"]);
+//! # Ok::<(), Error>(())
+//! ```
 
 pub mod plan;
 pub mod record;
-pub mod rows;
+mod rows;
 pub mod run;
-pub mod summary;
+mod summary;
 
 pub use crate::scenario::parameter_values::ParameterValues;
 pub use plan::Plan;

@@ -1,9 +1,9 @@
-//! Which runs a batch consists of.
+//! A plan: which runs a batch consists of, numbered, and its JSON form.
 
 use crate::error::{Error, quoted};
 use crate::format::table::Table;
 use crate::measurement::Measurement;
-use crate::measurement::provenance::{PLAN, header_line, with_header};
+use crate::measurement::header::{Word, with_header};
 use crate::scenario::Scenario;
 use crate::scenario::action::VehicleSelector;
 use crate::scenario::parameter_values::ParameterValues;
@@ -20,8 +20,8 @@ const MOST_MEMORY: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
 /// Version of the JSON form.
 const FORMAT: u64 = 1;
 
-/// A scenario, what is varied, how many seeds, and what is measured: everything that determines a batch. Every run of
-/// a plan that exists makes sense; the plan has checked it.
+/// A scenario, what is varied, how many seeds, and what is measured: everything that determines a batch. All runs of a
+/// plan are valid; this is checked when the plan is made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "Data", try_from = "Data")]
 pub struct Plan {
@@ -49,7 +49,12 @@ fn one() -> u64 {
 }
 
 impl Plan {
-    /// `runs` seeds of every combination of the varied values. In the scenario, the values of what is varied do not matter.
+    /// `runs` seeds of every combination of the varied values. The values that the scenario has for the varied parameters do not
+    /// matter.
+    ///
+    /// # Errors
+    /// A parameter varied twice, no runs or more than [`MOST_RUNS`], a cell whose scenario or measurement is not valid or
+    /// whose table has other columns than the other cells have, and rows that would take too much memory.
     pub fn new(
         mut scenario: Scenario,
         vary: Vec<ParameterValues>,
@@ -91,23 +96,23 @@ impl Plan {
     }
 
     fn check_cells(&self) -> Result<(), Error> {
-        // Who belongs to a share depends on the seed, and with it whether a start fits.
+        // Which vehicles a share (such as 10%) selects depends on the seed, and with it whether the start is valid.
         let shares = self.scenario.overrides.iter().map(|e| e.vehicles);
         let shares = shares.chain(self.scenario.actions.iter().map(|a| a.vehicles));
-        let seeds = if shares.into_iter().any(|who| matches!(who, VehicleSelector::Share(_))) {
+        let seeds = if shares.into_iter().any(|selector| matches!(selector, VehicleSelector::Share(_))) {
             self.runs
         } else {
             1
         };
         let mut memory = 0.0;
         for cell in 0..self.cells() {
-            let place = |e: Error| if self.vary.is_empty() { e } else { e.within(self.cell_name(cell)) };
+            let in_cell = |e: Error| if self.vary.is_empty() { e } else { e.within(self.cell_name(cell)) };
             for k in 0..seeds {
                 let scenario = self.scenario(cell * self.runs + k);
-                scenario.validate().map_err(place)?;
+                scenario.validate().map_err(in_cell)?;
                 if k == 0 {
-                    self.measurement.validate(&scenario).map_err(place)?;
-                    self.check_columns(&scenario).map_err(place)?;
+                    self.measurement.validate(&scenario).map_err(in_cell)?;
+                    self.check_columns(&scenario).map_err(in_cell)?;
                     memory += self.measurement.bytes(&scenario) * self.runs as f64;
                 }
             }
@@ -120,15 +125,15 @@ impl Plan {
         Ok(())
     }
 
-    /// Some tables have columns for each lane or vehicle; all runs must have the same ones.
+    /// Some tables have a column for each lane, vehicle or mode; all runs must have the same columns.
     fn check_columns(&self, scenario: &Scenario) -> Result<(), Error> {
-        let shape = |scenario: &Scenario| match self.measurement.resolved(scenario) {
+        let numbered_columns = |scenario: &Scenario| match self.measurement.resolved(scenario) {
             Measurement::Lanes { .. } => vec![scenario.lanes],
             Measurement::Speeds { vehicles, .. } => vehicles.unwrap_or_default(),
             Measurement::Modes { modes, .. } => modes.into_iter().collect(),
             _ => Vec::new(),
         };
-        if shape(scenario) == shape(&self.scenario) {
+        if numbered_columns(scenario) == numbered_columns(&self.scenario) {
             return Ok(());
         }
         let allowed = "a table that has the same columns in every cell, such as overview";
@@ -137,12 +142,12 @@ impl Plan {
 
     /// A table of its runs as CSV, with the plan in the header.
     pub fn to_csv(&self, table: &Table) -> String {
-        with_header(table, &[&format!("{PLAN}{}", self.to_json())])
+        with_header(table, &[(Word::Plan, &self.to_json())])
     }
 
     /// The plan in the header of a file that [`Plan::to_csv`] wrote.
     pub fn from_csv(text: &str) -> Result<Self, Error> {
-        Self::from_json(header_line(text, PLAN)?).map_err(|e| e.within("CSV header"))
+        Self::from_json(Word::Plan.read(text)?).map_err(|e| e.within("CSV header"))
     }
 
     /// What is varied.
@@ -187,14 +192,14 @@ impl Plan {
         values
     }
 
-    /// A cell as messages name it: `cell lanes=2, reaction-time=0.5`.
+    /// The name of a cell in messages: `cell lanes=2, reaction-time=0.5`.
     fn cell_name(&self, cell: u64) -> String {
         let values = self.cell_values(cell);
         let pairs = self.vary.iter().zip(values).map(|(v, x)| format!("{}={x}", v.parameter().hyphenated()));
         format!("cell {}", pairs.collect::<Vec<_>>().join(", "))
     }
 
-    /// The scenario of a run, with its cell's values and its own seed.
+    /// The scenario of a run, with the values of its cell and its own seed.
     pub fn scenario(&self, run: u64) -> Scenario {
         let mut scenario = self.scenario.clone();
         for (vary, value) in self.vary.iter().zip(self.cell_values(self.cell(run))) {
@@ -215,11 +220,14 @@ impl Plan {
     }
 
     /// Reads JSON and checks every cell.
+    ///
+    /// # Errors
+    /// What is wrong with the JSON or the plan.
     pub fn from_json(text: &str) -> Result<Self, Error> {
         serde_json::from_str(text).map_err(|e| Error::malformed("plan", e, "a plan in JSON"))
     }
 
-    /// Where another plan differs from this one, as far as a sentence can say: `runs is 10 and not 20`.
+    /// The first difference of another plan from this one, as the part of a sentence: `runs is 10 and not 20`.
     pub fn difference(&self, other: &Self) -> Option<String> {
         let json = |plan: &Self| serde_json::to_value(plan).expect("plain data");
         difference("", &json(self), &json(other))

@@ -1,9 +1,9 @@
-//! Finished runs as text, one a line, in any order: what an interrupted batch leaves, what a shard is, and what
-//! shards are merged from.
+//! Finished runs as text, one a line, in any order. An interrupted batch leaves such a file, and so does each shard of a
+//! batch that is spread over machines; shards are merged from these files.
 //!
 //! The first line is a [`Header`] in JSON with the whole plan. Then each run is one line,
 //! `[number, end, collided, [[…], …]]` with a list for each column, NaN being `null`. Numbers read back to the same bits.
-//! A line counts when it ends with a line feed, so that a line half written is as good as none.
+//! A line counts only when it ends with a line feed, so that a line that was not written completely is ignored.
 
 use super::plan::Plan;
 use super::run::Run;
@@ -25,14 +25,14 @@ pub struct Shard {
 }
 
 impl Default for Shard {
-    /// All of it.
+    /// The whole plan, 1/1.
     fn default() -> Self {
         Self { index: 1, count: 1 }
     }
 }
 
 impl Shard {
-    /// The numbers of its runs.
+    /// The numbers of its runs, ascending.
     pub fn numbers(self, plan: &Plan) -> impl Iterator<Item = u64> + use<> {
         (self.index - 1..plan.runs()).step_by(self.count as usize)
     }
@@ -74,7 +74,7 @@ impl FromStr for Shard {
     }
 }
 
-/// The first line: what the runs below it belong to.
+/// The first line of the text: the plan and the shard of the runs below it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Header {
@@ -89,17 +89,17 @@ pub struct Header {
 }
 
 impl Header {
-    /// Of a batch computed by this version.
+    /// The header of a batch that is computed by this version.
     pub fn new(plan: Plan, shard: Shard, summary: bool) -> Self {
         Self { ringroad: VERSION.to_owned(), summary, shard, plan }
     }
 
-    /// The line, with its line feed.
+    /// The header as a line, with its line feed.
     pub fn line(&self) -> String {
         serde_json::to_string(self).expect("plain data") + "\n"
     }
 
-    /// Why runs under the `found` header cannot be taken for runs of this one.
+    /// Whether runs under the header `found` are runs of the same plan and version.
     fn check(&self, found: &Self) -> Result<(), Error> {
         if self.ringroad != found.ringroad {
             let what = format!("runs of version {} and not {}", found.ringroad, self.ringroad);
@@ -130,7 +130,7 @@ pub fn line(run: &Run) -> String {
     serde_json::to_string(&(run.number, run.end, run.collided, values)).expect("plain data") + "\n"
 }
 
-/// Reads a run with such columns.
+/// Reads a line as a run whose values have these columns.
 fn parse(line: &str, columns: &[Column]) -> Option<Run> {
     let (number, end, collided, lists): (u64, f64, bool, Vec<Vec<Value>>) =
         serde_json::from_str(line).ok()?;
@@ -152,24 +152,32 @@ fn parse(line: &str, columns: &[Column]) -> Option<Run> {
     Some(Run { number, end, collided, values: values.collect::<Option<_>>()? })
 }
 
-/// What a text of finished runs holds.
+/// A text of finished runs, read.
 #[derive(Clone, Debug)]
 pub struct Record {
     /// Its first line.
     pub header: Header,
     /// The runs, by number.
     pub runs: BTreeMap<u64, Run>,
-    /// Length of the text up to the end of its last whole line; what follows was being written when it broke off.
+    /// Length of the text up to the end of its last complete line, in bytes; what follows was not written completely.
     pub whole: usize,
 }
 
 impl Record {
-    /// Reads a text. It may break off anywhere after the header; a line that makes no sense elsewhere is refused.
+    /// Whether a text begins as finished runs do.
+    pub fn is_record(text: &str) -> bool {
+        text.starts_with("{\"ringroad\":")
+    }
+
+    /// Reads a text. Its last line may be incomplete.
+    ///
+    /// # Errors
+    /// A text that does not begin with a header, and a complete line that is not a run of the plan and shard.
     pub fn read(text: &str) -> Result<Self, Error> {
         let allowed = "finished runs that ringroad batch wrote, with their plan";
         let refuse = || Error::not_ours("batch", opening(text), allowed);
         let (first, _) = text.split_once('\n').ok_or_else(refuse)?;
-        if !first.starts_with("{\"ringroad\":") {
+        if !Self::is_record(first) {
             return Err(refuse());
         }
         let header: Header =
@@ -203,12 +211,16 @@ impl Record {
     }
 }
 
-/// The whole text of a shard whose runs are all there, by number: the same bytes however it came about.
+/// The text of a shard whose runs are all finished, in order of number; its bytes do not depend on the order in which they
+/// were computed.
 pub fn write(header: &Header, runs: &BTreeMap<u64, Run>) -> String {
     runs.values().fold(header.line(), |text, run| text + &line(run))
 }
 
-/// Puts the shards of one plan together again. Each comes with its name, for messages.
+/// Merges the shards of one plan, each with its name for messages.
+///
+/// # Errors
+/// Shards of different plans, versions or forms of table, shards that overlap, and a run that is missing.
 pub fn merge(shards: Vec<(String, Record)>) -> Result<(Header, BTreeMap<u64, Run>), Error> {
     let mut shards = shards.into_iter();
     let Some((first_name, first)) = shards.next() else {

@@ -1,4 +1,4 @@
-//! A table of all runs: one row a run, or the rows that the measurement has for each.
+//! A table of all runs: one row for each run, or the rows that the measurement gives for each.
 
 use super::plan::Plan;
 use super::run::Run;
@@ -6,14 +6,14 @@ use crate::format::table::{Column, Table, Values};
 use crate::scenario::parameters::Parameter;
 use std::collections::BTreeMap;
 
-/// What is known of every run; a measurement with a column of that name says the same again.
+/// Columns that every table of runs has. A measurement with a column of one of these names repeats it, so it is left out.
 pub(super) const OF_EVERY_RUN: [&str; 2] = ["outcome", "end_time_s"];
 
 impl Plan {
     /// The rows of these runs, in order of number: varied values, seed, outcome and end of the run, then what was
     /// measured.
     pub fn table(&self, runs: &BTreeMap<u64, Run>) -> Table {
-        // A run as often as it has rows.
+        // Each run as often as it has rows.
         let of_rows = || runs.values().flat_map(|run| std::iter::repeat_n(run, rows(run)));
         let numbers = of_rows().map(|run| run.number + 1).collect();
         let cells: Vec<u64> = of_rows().map(|run| self.cell(run.number)).collect();
@@ -41,7 +41,7 @@ impl Plan {
         Table::new(columns)
     }
 
-    /// The varied parameters, a value for each of these cells.
+    /// The columns of the varied parameters, with a value for each of these cells.
     pub(super) fn varied_columns(&self, cells: &[u64]) -> Vec<Column> {
         let of_cells: Vec<Vec<f64>> = cells.iter().map(|&cell| self.cell_values(cell)).collect();
         let column = |(k, parameter): (usize, &Parameter)| {
@@ -56,7 +56,7 @@ impl Plan {
         self.vary().iter().map(super::ParameterValues::parameter).enumerate().map(column).collect()
     }
 
-    /// The name of a measured column: its own, where that is not a varied parameter's.
+    /// The name of a measured column; one that a varied parameter has, too, gets `_measured` at its end.
     pub(super) fn distinct(&self, name: String) -> String {
         if self.vary().iter().any(|v| column_name(v.parameter()) == name) { name + "_measured" } else { name }
     }

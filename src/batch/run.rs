@@ -1,28 +1,30 @@
-//! Computing runs: one by itself, or many on all cores.
+//! Computing runs: a single one, or many on all cores.
 
 use super::plan::Plan;
 use crate::error::Error;
 use crate::format::table::{Column, Values};
 use crate::measurement::probe::measure;
+use crate::numerics::parallel;
 use crate::simulation::Simulation;
 use std::sync::Mutex;
 
-/// What came out of one run.
+/// The result of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// Its number in the plan, from 0.
+    /// Number in the plan, from 0.
     pub number: u64,
-    /// Time of its end, s: of the collision, or the scenario's.
+    /// Time of the end, s: of the collision, or `until` of the scenario.
     pub end: f64,
-    /// Whether a collision ended it.
+    /// Whether a collision ended the run.
     pub collided: bool,
-    /// What was measured: the values of the columns that [`Plan::columns`] names.
+    /// What was measured: the values of the columns in [`Plan::columns`].
     pub values: Vec<Values>,
 }
 
 impl Plan {
-    /// Computes one run. Before it and every so often `progress` gets the vehicle updates (vehicles times steps) done since it was
-    /// asked last and says whether to go on; where not, there is no run. For a run that ends early the rest counts as done.
+    /// Computes one run. At its start and about every 10 ms of computing time, `progress` gets the vehicle updates (vehicles
+    /// times steps) done since its last call, and returns whether to go on; if not, the result is `None`. When a collision
+    /// ends a run early, the updates left over are reported as done.
     pub fn run(&self, number: u64, progress: &mut dyn FnMut(u64) -> bool) -> Result<Option<Run>, Error> {
         if !progress(0) {
             return Ok(None);
@@ -31,22 +33,22 @@ impl Plan {
         let mut probes = [self.measurement().probe(&scenario)?];
         let mut simulation = Simulation::new(&scenario)?;
         let vehicles = scenario.vehicles as u64;
-        let mut seen = 0;
+        let mut reported = 0;
         let finished = measure(&mut simulation, &mut probes, &mut |step| {
-            let more = (step - seen) * vehicles;
-            seen = step;
+            let more = (step - reported) * vehicles;
+            reported = step;
             progress(more)
         });
         if !finished {
             return Ok(None);
         }
-        progress((scenario.last_step() - seen) * vehicles);
+        progress((scenario.last_step() - reported) * vehicles);
         let values = probes[0].table().columns().iter().map(|c| c.values.clone()).collect();
         let collision = simulation.collision();
         Ok(Some(Run { number, end: simulation.time(), collided: collision.is_some(), values }))
     }
 
-    /// Vehicle updates of a run that ends as planned.
+    /// Vehicle updates (vehicles times steps) of a run without a collision.
     pub fn work(&self, number: u64) -> u64 {
         let scenario = self.scenario(number);
         scenario.last_step() * scenario.vehicles as u64
@@ -55,9 +57,9 @@ impl Plan {
     /// The columns measured in every run, without values.
     pub fn columns(&self) -> Vec<Column> {
         let scenario = self.scenario(0);
-        let sound = "checked when the plan was made";
-        let mut probe = self.measurement().probe(&scenario).expect(sound);
-        probe.observe(&Simulation::new(&scenario).expect(sound));
+        let checked = "checked when the plan was made";
+        let mut probe = self.measurement().probe(&scenario).expect(checked);
+        probe.observe(&Simulation::new(&scenario).expect(checked));
         let mut columns = probe.table().columns().to_vec();
         for column in &mut columns {
             match &mut column.values {
@@ -70,15 +72,19 @@ impl Plan {
     }
 }
 
-/// Why not everything was computed.
+/// Why not every run was computed.
 enum Stop<E> {
     Cancelled,
     Failed(E),
 }
 
-/// Computes these runs of the plan, on as many threads as asked for (all cores by default; one at a time without the
-/// feature `parallel` and in a browser), and hands each to `finished` as soon as it is there, in any order, never two
-/// at once. `progress` is as in [`Plan::run`]. Returns whether it went on to the end.
+/// Computes these runs of the plan and gives each to `finished` when it ends: in any order, but never two at once.
+///
+/// `threads` is as in [`parallel::try_map`]: by default one for each core. `progress` is as in [`Plan::run`]; it is
+/// called from all threads. Returns whether all runs were computed (`false` where `progress` cancelled).
+///
+/// # Errors
+/// The first error of a run or of `finished`; no further run begins after it.
 pub fn run_all<E: From<Error> + Send>(
     plan: &Plan,
     numbers: &[u64],
@@ -87,36 +93,15 @@ pub fn run_all<E: From<Error> + Send>(
     finished: &mut (dyn FnMut(Run) -> Result<(), E> + Send),
 ) -> Result<bool, E> {
     let finished = Mutex::new(finished);
-    let one = |&number: &u64| {
-        let run = plan.run(number, &mut |work| progress(work)).map_err(|e| Stop::Failed(e.into()))?;
+    let one = |k: usize| {
+        let run = plan.run(numbers[k], &mut |work| progress(work)).map_err(|e| Stop::Failed(e.into()))?;
         let run = run.ok_or(Stop::Cancelled)?;
         let mut finished = finished.lock().map_err(|_| Stop::Cancelled)?;
         finished(run).map_err(Stop::Failed)
     };
-    match each(numbers, threads, one) {
-        Ok(()) => Ok(true),
+    match parallel::try_map(numbers.len(), threads, one) {
+        Ok(_) => Ok(true),
         Err(Stop::Cancelled) => Ok(false),
         Err(Stop::Failed(error)) => Err(error),
     }
-}
-
-#[cfg(all(feature = "parallel", not(target_arch = "wasm32")))]
-fn each<E: Send>(
-    numbers: &[u64],
-    threads: Option<usize>,
-    one: impl Fn(&u64) -> Result<(), E> + Sync,
-) -> Result<(), E> {
-    use rayon::prelude::*;
-    // Runs differ in length by orders of magnitude; so each is a task of its own.
-    let all = || numbers.par_iter().with_max_len(1).try_for_each(&one);
-    match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
-        Some(Ok(pool)) => pool.install(all),
-        // Where the system refuses so many threads, those that there are do it.
-        Some(Err(_)) | None => all(),
-    }
-}
-
-#[cfg(not(all(feature = "parallel", not(target_arch = "wasm32"))))]
-fn each<E>(numbers: &[u64], _threads: Option<usize>, one: impl Fn(&u64) -> Result<(), E>) -> Result<(), E> {
-    numbers.iter().try_for_each(one)
 }

@@ -1,5 +1,5 @@
-//! What the runs of every cell say together: mean, standard deviation, quantiles and a confidence interval of every
-//! quantity, at every time.
+//! Statistics over the runs of every cell: mean, standard deviation, quantiles and a confidence interval of every quantity,
+//! at every time.
 
 use super::plan::Plan;
 use super::rows::OF_EVERY_RUN;
@@ -10,7 +10,8 @@ use crate::measurement::Measurement;
 use crate::numerics::statistics::{QUANTILES, Statistics, Student};
 use std::collections::BTreeMap;
 
-/// The columns that say what a row of a measurement is of, where the rows of different runs correspond.
+/// The columns that identify a row of a measurement (a time, a vehicle, …), so that the rows of different runs can be
+/// matched; none where they cannot.
 fn keys(measurement: &Measurement) -> Option<&'static [&'static str]> {
     Some(match measurement {
         Measurement::Outcome {} => &[],
@@ -24,15 +25,15 @@ fn keys(measurement: &Measurement) -> Option<&'static [&'static str]> {
         Measurement::SpeedMap { .. } | Measurement::FlowMap { .. } => &["time_s", "position_m"],
         Measurement::Growth { .. } => &["lane", "mode"],
         Measurement::CyclicGrowth { .. } => &["vehicle", "period"],
-        // Rows at times that differ from run to run.
+        // The times of the rows differ from run to run.
         Measurement::Events {} | Measurement::Equilibrium { .. } => return None,
     })
 }
 
-/// What a row of a measurement is of, in an order of its own.
+/// The value of an identifying column. Keys sort as their values do.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
-    /// The bits of a number that is not negative are in its order.
+    /// The bits of a number; those of numbers that are not negative sort as the numbers do.
     Number(u64),
     Whole(u64),
     Text(String),
@@ -48,7 +49,7 @@ impl Key {
     }
 }
 
-/// The rows of a summary in the making.
+/// The rows of a summary while it is being made.
 #[derive(Default)]
 struct Rows {
     cells: Vec<u64>,
@@ -58,7 +59,10 @@ struct Rows {
 }
 
 impl Plan {
-    /// Whether its measurement can be summarised.
+    /// Whether the measurement can be summarised.
+    ///
+    /// # Errors
+    /// A measurement whose rows do not correspond from run to run.
     pub fn check_summary(&self) -> Result<(), Error> {
         if keys(self.measurement()).is_some() {
             return Ok(());
@@ -68,10 +72,13 @@ impl Plan {
         Err(Error::conflict("table of a summary", quoted(self.measurement().name()), allowed))
     }
 
-    /// A row for each cell, for each place in the measurement (time, vehicle, …), and for each quantity.
+    /// A row for each cell, each row of the measurement (time, vehicle, …), and each quantity.
     ///
-    /// Over time, a quantity is that of the runs that have not ended yet; `collided` is the share of all runs that
-    /// have collided by then.
+    /// # Errors
+    /// As [`Self::check_summary`].
+    ///
+    /// At each time, the statistics are over the runs that have not ended yet; `collided` is the share of all runs that have
+    /// collided by then.
     pub fn summary(&self, runs: &BTreeMap<u64, Run>) -> Result<Table, Error> {
         self.check_summary()?;
         let keys = keys(self.measurement()).unwrap_or_default();
@@ -132,8 +139,8 @@ impl Plan {
         Ok(rows.table(self, &key_places.iter().map(|&k| columns[k].clone()).collect::<Vec<_>>()))
     }
 
-    /// Whether a row is at one of the measurement's times: a collision has a row of its own in some tables, at a time
-    /// that other runs do not have.
+    /// Whether a row is at one of the regular times of the measurement. Some tables have an additional row at a collision,
+    /// at a time that other runs do not have.
     fn is_regular(&self, run: &Run, row: usize, columns: &[Column]) -> bool {
         if !run.collided {
             return true;

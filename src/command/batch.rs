@@ -1,7 +1,7 @@
 //! `ringroad batch`: many runs with different seeds and varied parameters, in one table.
 //!
 //! With `--out FILE`, every finished run is appended to `FILE.part` at once; the same call again continues there. The
-//! file goes when FILE is whole.
+//! part file is removed when FILE has been written.
 
 use super::options::{read, scenario_options, tell_of_late_actions, unchecked_scenario};
 use super::output::{self, Output};
@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 /// `ringroad batch`.
 pub(crate) const SUBCOMMAND: Subcommand = Subcommand { define, run };
 
-/// Finished runs are safe from a power cut after this time, and from anything less at once.
+/// Finished runs are synced to the disk at least this often, so that a power cut loses no more; a crash of the program loses none.
 const SYNC: Duration = Duration::from_secs(2);
 
 fn define() -> Command {
@@ -135,7 +135,7 @@ fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses options that would say twice what a file says.
+/// Refuses options for what the file of another option already determines.
 fn stands_alone(matches: &ArgMatches, option: &str, beside: &[&str]) -> Result<(), Error> {
     let given = |id: &&str| matches.value_source(id) == Some(ValueSource::CommandLine);
     match matches.ids().map(clap::Id::as_str).filter(given).find(|id| !beside.contains(id)) {
@@ -158,7 +158,7 @@ fn plan(matches: &ArgMatches) -> Result<Plan, Failure> {
         let text = read(file)?;
         let plan = if text.starts_with('#') {
             Plan::from_csv(&text)
-        } else if text.starts_with("{\"ringroad\"") {
+        } else if Record::is_record(&text) {
             Record::read(&text).map(|record| record.header.plan)
         } else {
             Plan::from_json(&text)
@@ -183,7 +183,7 @@ fn csv(plan: &Plan, runs: &BTreeMap<u64, Run>, summary: bool) -> Result<String, 
     Ok(plan.to_csv(&table))
 }
 
-/// Computes what the part does not hold yet.
+/// Computes the runs that are not in the part file yet.
 fn compute(
     header: &Header,
     mut part: Option<&mut Part>,
@@ -215,18 +215,18 @@ fn compute(
     Ok(runs)
 }
 
-/// The file of finished runs beside the file to come.
+/// The file of finished runs next to the final file, which is written when all are finished.
 struct Part {
     name: String,
     file: File,
-    /// What was in it.
+    /// The runs that were in it.
     runs: BTreeMap<u64, Run>,
     synced: Instant,
 }
 
 impl Part {
-    /// Opens it, or creates it with its header. Runs of another plan and a file in use are refused; a line that was
-    /// being written when its writer died is cut off.
+    /// Opens the file, or creates it with its header. Runs of another plan and a file in use are refused; an incomplete last
+    /// line is cut off.
     fn open(name: String, header: &Header) -> Result<Self, Failure> {
         let failed = |error| Failure::File { name: name.clone(), error };
         let mut file = OpenOptions::new().read(true).append(true).create(true).open(&name).map_err(failed)?;
@@ -248,7 +248,7 @@ impl Part {
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed)?;
         let whole = bytes.iter().rposition(|&b| b == b'\n').map_or(0, |last| last + 1);
-        // Without a whole line there was no time to write the header.
+        // Without a complete line the header itself was not written completely.
         let (runs, text) = if whole == 0 && header.line().as_bytes().starts_with(&bytes) {
             (BTreeMap::new(), header.line())
         } else {
@@ -264,7 +264,7 @@ impl Part {
         Ok(Self { name, file, runs, synced: Instant::now() })
     }
 
-    /// Adds a finished run, in one piece.
+    /// Adds a finished run, in one write.
     fn append(&mut self, run: &Run) -> Result<(), Failure> {
         let mut written = self.file.write_all(record::line(run).as_bytes());
         if self.synced.elapsed() > SYNC {
@@ -274,7 +274,7 @@ impl Part {
         written.map_err(|error| Failure::File { name: self.name.clone(), error })
     }
 
-    /// The file is whole: what led there can go.
+    /// Removes the part file, after the final file has been written.
     fn remove(self) -> Result<(), Failure> {
         std::fs::remove_file(&self.name).map_err(|error| Failure::File { name: self.name.clone(), error })
     }

@@ -1,4 +1,4 @@
-//! `ringroad replay`: simulates again what a CSV file says of its making, and compares every byte.
+//! `ringroad replay`: repeats the run that made a CSV file, and compares every byte.
 
 use super::options::read;
 use super::output::Output;

@@ -17,7 +17,7 @@ use std::process::ExitCode;
 /// `ringroad run`.
 pub(crate) const SUBCOMMAND: Subcommand = Subcommand { define, run };
 
-/// More memory than the rows of a run may take, GiB; writing them takes about three times as much.
+/// The most memory that the rows of a run may take, GiB; writing them takes about three times as much.
 const MEMORY: f64 = 4.0;
 
 fn define() -> Command {

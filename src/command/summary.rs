@@ -20,8 +20,8 @@ struct Summary<'a> {
     /// Delays in force at the end: whole steps.
     smallest_delay_s: f64,
     largest_delay_s: f64,
-    /// Drivers who differ from the default one at the start.
-    exceptions: Vec<Exceptional>,
+    /// Vehicles whose drivers differ from the default driver at the start.
+    exceptions: Vec<OverriddenDriver>,
     version: &'static str,
     scenario: &'a Scenario,
 }
@@ -45,10 +45,10 @@ struct Vehicle {
 }
 
 #[derive(Serialize)]
-struct Exceptional {
+struct OverriddenDriver {
     #[serde(flatten)]
     vehicle: Vehicle,
-    /// Who was next to it at the start, for comparison.
+    /// Its nearest neighbours in the adjacent lanes at the start, for comparison.
     neighbours: Vec<Neighbour>,
 }
 
@@ -60,12 +60,12 @@ struct Neighbour {
     vehicle: Vehicle,
 }
 
-/// Ahead or behind, in which lane, who.
-type Beside = (&'static str, usize, usize);
+/// Ahead or behind; the lane; the vehicle.
+type AdjacentVehicle = (&'static str, usize, usize);
 
 /// Vehicles whose drivers differ at the start, with their nearest neighbours in the adjacent lanes then; indices
 /// from 0.
-pub(crate) struct Watched(Vec<(usize, Vec<Beside>)>);
+pub(crate) struct Watched(Vec<(usize, Vec<AdjacentVehicle>)>);
 
 impl Watched {
     /// From the state at the start.
@@ -110,7 +110,7 @@ pub(crate) fn summary(simulation: &Simulation, watched: &Watched) -> String {
         lane_changes: simulation.lane_changes(j),
         distance_m: simulation.distance(j),
     };
-    let exceptional = |(j, neighbours): &(usize, Vec<Beside>)| Exceptional {
+    let overridden = |(j, neighbours): &(usize, Vec<AdjacentVehicle>)| OverriddenDriver {
         vehicle: vehicle(*j),
         neighbours: neighbours
             .iter()
@@ -132,7 +132,7 @@ pub(crate) fn summary(simulation: &Simulation, watched: &Watched) -> String {
         lane_changes: (0..n).map(|j| u64::from(simulation.lane_changes(j))).sum(),
         smallest_delay_s: seconds(delays.clone().min()),
         largest_delay_s: seconds(delays.max()),
-        exceptions: watched.0.iter().map(exceptional).collect(),
+        exceptions: watched.0.iter().map(overridden).collect(),
         version: VERSION,
         scenario: simulation.scenario(),
     };

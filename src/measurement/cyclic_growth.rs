@@ -2,9 +2,8 @@
 //! n-th period, between successive upward crossings of v∞; k from `f(n) ≈ a·exp(k·n)` by non-linear least
 //! squares, and beside it the log-linear fit.
 //!
-//! v∞ is the equilibrium speed of the vehicle's lane as it was in the first state seen. A crossing lies between
-//! two steps; the later one is given. The answer depends on the vehicle and on the number of periods, so the
-//! table states both.
+//! v∞ is the equilibrium speed of the vehicle's lane in the first state. A crossing lies between two steps; its time is that of
+//! the later one. k depends on the vehicle and on the number of periods, so the table states both.
 
 use super::probe::Probe;
 use crate::format::table::{Column, Table};
@@ -19,18 +18,19 @@ pub struct CyclicGrowth {
     periods: usize,
     /// v∞, m/s; NaN before the first state.
     equilibrium: f64,
-    /// The last state seen, (step, time, speed): it counts when the next time comes, since it may be seen again.
+    /// The last state: step, time (s), speed (m/s). It is added to the periods only when the next time comes, since a second
+    /// look at the same time may replace it.
     pending: Option<(u64, f64, f64)>,
     cycles: Cycles,
 }
 
-/// The periods up to some time.
+/// The periods of the speed up to some time.
 #[derive(Clone, Debug, Default)]
 struct Cycles {
     speed: Option<f64>,
     /// Time of the last upward crossing and smallest speed since.
     open: Option<(f64, f64)>,
-    /// Finished periods: start, end, smallest speed.
+    /// Finished periods: start (s), end (s), smallest speed (m/s).
     finished: Vec<(f64, f64, f64)>,
 }
 
@@ -71,7 +71,7 @@ impl Probe for CyclicGrowth {
     fn observe(&mut self, simulation: &Simulation) {
         let step = simulation.step_index();
         match self.pending {
-            Some((seen, time, speed)) if seen != step => {
+            Some((before, time, speed)) if before != step => {
                 self.cycles.add(time, speed, self.equilibrium, self.periods);
             }
             Some(_) => {}

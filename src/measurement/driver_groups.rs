@@ -1,9 +1,10 @@
-//! Lane changes, distance and mean speed: of every vehicle, and of every group of like drivers. Also at a collision.
+//! Lane changes, distance and mean speed: of every vehicle, and of every group of equal drivers. Also at a collision.
 //!
-//! A group is named by what sets its drivers apart from the scenario's default driver in the first state seen:
-//! `sensitivity=2`, or `default`.
+//! A group is named by the parameters in which its drivers differ from the scenario's default driver in the first state:
+//! `sensitivity=2`, or `default` where there is none.
 
-use super::probe::{Due, Probe, Schedule};
+use super::due_rows::DueRows;
+use super::probe::Probe;
 use crate::format::table::{Column, Table};
 use crate::scenario::action::Effect;
 use crate::scenario::driver::Driver;
@@ -32,14 +33,14 @@ fn name(driver: &Driver, default: &Driver) -> String {
 impl Groups {
     fn new(simulation: &Simulation) -> Self {
         let mut groups = Self::default();
-        let mut known: Vec<Driver> = Vec::new();
+        let mut drivers: Vec<Driver> = Vec::new();
         for j in 0..simulation.vehicles() {
             let driver = simulation.driver(j);
-            let group = known.iter().position(|d| d == driver).unwrap_or_else(|| {
-                known.push(*driver);
+            let group = drivers.iter().position(|d| d == driver).unwrap_or_else(|| {
+                drivers.push(*driver);
                 groups.names.push(name(driver, &simulation.scenario().driver));
                 groups.sizes.push(0);
-                known.len() - 1
+                drivers.len() - 1
             });
             groups.sizes[group] += 1;
             groups.of.push(group);
@@ -48,7 +49,7 @@ impl Groups {
     }
 }
 
-/// Mean speed since t = 0, m/s; none at t = 0.
+/// Mean speed since t = 0, m/s; NaN at t = 0.
 fn mean_speed(distance: f64, time: f64) -> f64 {
     if time > 0.0 { distance / time } else { f64::NAN }
 }
@@ -56,84 +57,73 @@ fn mean_speed(distance: f64, time: f64) -> f64 {
 /// The probe of the table `drivers`: a row for each group and time.
 #[derive(Clone, Debug)]
 pub struct DriverGroups {
-    schedule: Schedule,
     groups: Groups,
-    times: Vec<f64>,
-    /// Sums over each group.
-    changes: Vec<u64>,
-    distances: Vec<f64>,
+    rows: DueRows<GroupSums>,
+}
+
+/// Sums over the vehicles of a group.
+#[derive(Clone, Copy, Debug, Default)]
+struct GroupSums {
+    lane_changes: u64,
+    distance: f64,
 }
 
 impl DriverGroups {
     /// Rows every so many steps.
     pub fn new(every: u64) -> Self {
-        let schedule = Schedule::with_collision(every);
-        Self { schedule, groups: Groups::default(), times: vec![], changes: vec![], distances: vec![] }
+        Self { groups: Groups::default(), rows: DueRows::with_collision(every) }
     }
 }
 
 impl Probe for DriverGroups {
     fn observe(&mut self, simulation: &Simulation) {
-        let due = self.schedule.due(simulation);
-        if due == Due::Nothing {
+        if self.rows.begin(simulation).is_none() {
             return;
         }
-        if due == Due::Again {
-            self.times.pop();
-        }
-        if self.times.is_empty() {
+        if self.rows.times().len() == 1 {
             self.groups = Groups::new(simulation);
         }
-        let groups = self.groups.names.len();
-        let start = self.times.len() * groups;
-        self.times.push(simulation.time());
-        self.changes.truncate(start);
-        self.changes.resize(start + groups, 0);
-        self.distances.truncate(start);
-        self.distances.resize(start + groups, 0.0);
+        let mut sums = vec![GroupSums::default(); self.groups.names.len()];
         for (j, &group) in self.groups.of.iter().enumerate() {
-            self.changes[start + group] += u64::from(simulation.lane_changes(j));
-            self.distances[start + group] += simulation.distance(j);
+            sums[group].lane_changes += u64::from(simulation.lane_changes(j));
+            sums[group].distance += simulation.distance(j);
         }
+        self.rows.extend(sums);
     }
 
     fn table(&self) -> Table {
+        let (sums, times) = (self.rows.rows(), self.rows.time_of_rows());
         let groups = self.groups.names.len();
-        let rows = self.times.len() * groups;
         let size = |row: usize| self.groups.sizes[row % groups] as f64;
-        let distance = |row: usize| self.distances[row] / size(row);
-        let time = |row: usize| self.times[row / groups];
+        let distance = |row: usize| sums[row].distance / size(row);
+        let rows = 0..sums.len();
+        let mean_speeds = rows.clone().map(|r| mean_speed(distance(r), times[r])).collect();
         Table::new(vec![
-            Column::float("time_s", "s", "time", (0..rows).map(time).collect()),
+            self.rows.time_column(),
             Column::text(
                 "group",
                 "what sets these drivers apart from the default one",
-                (0..rows).map(|r| self.groups.names[r % groups].clone()).collect(),
+                rows.clone().map(|r| self.groups.names[r % groups].clone()).collect(),
             ),
             Column::whole(
                 "vehicles",
                 "",
                 "vehicles in the group",
-                (0..rows).map(|r| self.groups.sizes[r % groups]).collect(),
+                rows.clone().map(|r| self.groups.sizes[r % groups]).collect(),
             ),
             Column::float(
                 "lane_changes_per_vehicle",
                 "",
                 "lane changes since t = 0, mean over the group",
-                (0..rows).map(|r| self.changes[r] as f64 / size(r)).collect(),
+                rows.clone().map(|r| sums[r].lane_changes as f64 / size(r)).collect(),
             ),
             Column::float(
                 "distance_per_vehicle_m",
                 "m",
                 "distance driven since t = 0, mean over the group",
-                (0..rows).map(distance).collect(),
+                rows.map(distance).collect(),
             ),
-            Column::float(
-                "mean_speed_m_per_s",
-                "m/s",
-                "mean speed since t = 0",
-                (0..rows).map(|r| mean_speed(distance(r), time(r))).collect(),
-            ),
+            Column::float("mean_speed_m_per_s", "m/s", "mean speed since t = 0", mean_speeds),
         ])
     }
 }
@@ -141,80 +131,62 @@ impl Probe for DriverGroups {
 /// The probe of the table `vehicles`: a row for each vehicle and time.
 #[derive(Clone, Debug)]
 pub struct Vehicles {
-    schedule: Schedule,
     groups: Groups,
-    times: Vec<f64>,
-    lanes: Vec<u64>,
-    changes: Vec<u64>,
-    distances: Vec<f64>,
+    rows: DueRows<VehicleRow>,
+}
+
+/// Values of a vehicle at a time.
+#[derive(Clone, Copy, Debug)]
+struct VehicleRow {
+    lane: u64,
+    lane_changes: u64,
+    distance: f64,
 }
 
 impl Vehicles {
     /// Rows every so many steps.
     pub fn new(every: u64) -> Self {
-        let schedule = Schedule::with_collision(every);
-        Self {
-            schedule,
-            groups: Groups::default(),
-            times: vec![],
-            lanes: vec![],
-            changes: vec![],
-            distances: vec![],
-        }
+        Self { groups: Groups::default(), rows: DueRows::with_collision(every) }
     }
 }
 
 impl Probe for Vehicles {
     fn observe(&mut self, simulation: &Simulation) {
-        let due = self.schedule.due(simulation);
-        if due == Due::Nothing {
+        if self.rows.begin(simulation).is_none() {
             return;
         }
-        if due == Due::Again {
-            self.times.pop();
-        }
-        if self.times.is_empty() {
+        if self.rows.times().len() == 1 {
             self.groups = Groups::new(simulation);
         }
-        let start = self.times.len() * simulation.vehicles();
-        self.times.push(simulation.time());
-        self.lanes.truncate(start);
-        self.changes.truncate(start);
-        self.distances.truncate(start);
-        for j in 0..simulation.vehicles() {
-            self.lanes.push(simulation.lane(j) as u64 + 1);
-            self.changes.push(u64::from(simulation.lane_changes(j)));
-            self.distances.push(simulation.distance(j));
-        }
+        self.rows.extend((0..simulation.vehicles()).map(|j| VehicleRow {
+            lane: simulation.lane(j) as u64 + 1,
+            lane_changes: u64::from(simulation.lane_changes(j)),
+            distance: simulation.distance(j),
+        }));
     }
 
     fn table(&self) -> Table {
-        let n = self.groups.of.len();
-        let rows = self.times.len() * n;
-        let time = |row: usize| self.times[row / n];
+        let (n, times) = (self.groups.of.len(), self.rows.time_of_rows());
+        let rows = 0..self.rows.rows().len();
         let group = |row: usize| self.groups.names[self.groups.of[row % n]].clone();
+        let mean_speeds = self.rows.rows().iter().zip(&times).map(|(r, &t)| mean_speed(r.distance, t));
         Table::new(vec![
-            Column::float("time_s", "s", "time", (0..rows).map(time).collect()),
+            self.rows.time_column(),
             Column::whole(
                 "vehicle",
                 "",
                 "number of the vehicle, from 1",
-                (0..rows).map(|r| (r % n) as u64 + 1).collect(),
+                rows.clone().map(|r| (r % n) as u64 + 1).collect(),
             ),
             Column::text(
                 "group",
                 "what sets its driver apart from the default one",
-                (0..rows).map(group).collect(),
+                rows.map(group).collect(),
             ),
-            Column::whole("lane", "", "its lane", self.lanes.clone()),
-            Column::whole("lane_changes", "", "lane changes since t = 0", self.changes.clone()),
-            Column::float("distance_m", "m", "distance driven since t = 0", self.distances.clone()),
-            Column::float(
-                "mean_speed_m_per_s",
-                "m/s",
-                "mean speed since t = 0",
-                (0..rows).map(|r| mean_speed(self.distances[r], time(r))).collect(),
-            ),
+            Column::whole("lane", "", "its lane", self.rows.each(|r| r.lane)),
+            Column::whole("lane_changes", "", "lane changes since t = 0", self.rows.each(|r| r.lane_changes)),
+            Column::float("distance_m", "m", "distance driven since t = 0", self.rows.each(|r| r.distance)),
+            Column::float("mean_speed_m_per_s", "m/s", "mean speed since t = 0", mean_speeds.collect()),
         ])
     }
 }

@@ -1,10 +1,11 @@
 //! The equilibrium of each lane: a row for each lane at the start, and again whenever its values have changed.
 //!
-//! v∞ is the common speed with Σ_j h_j(v∞) = L. c = n·dv∞/dL, the slope of that speed against the mean headway:
-//! for equal drivers dv/dh, for different ones the harmonic mean of theirs, which is what long waves feel. The
-//! largest flow is that over all densities, with drivers in these proportions.
+//! v∞ is the common speed with Σ_j h_j(v∞) = L. c = n·dv∞/dL is the slope of that speed against the mean headway: for
+//! homogeneous drivers dv/dh, for heterogeneous ones the harmonic mean of theirs, which determines the speed of long waves. The
+//! largest flow is the maximum over all densities, with drivers in the same proportions.
 
-use super::probe::{Due, Probe, Schedule};
+use super::due_rows::DueRows;
+use super::probe::Probe;
 use crate::format::table::{Column, Table};
 use crate::scenario::driver::{Capacity, Driver, equilibrium};
 use crate::simulation::Simulation;
@@ -23,18 +24,17 @@ struct Row {
 /// The probe of the table `equilibrium`.
 #[derive(Clone, Debug)]
 pub struct Equilibria {
-    schedule: Schedule,
-    /// Speed laws of each lane's drivers when last looked at, and of the lane being looked at.
+    /// The drivers of each lane when its equilibrium was computed last; `drivers` is those of the lane in work.
     known: Vec<Option<Vec<Driver>>>,
     drivers: Vec<Driver>,
-    /// Time, lane, values.
-    rows: Vec<(f64, usize, Row)>,
+    /// Time (s), lane (from 0), values.
+    rows: DueRows<(f64, usize, Row)>,
 }
 
 impl Equilibria {
-    /// A look every so many steps.
+    /// Compares every so many steps.
     pub fn new(every: u64) -> Self {
-        Self { schedule: Schedule::new(every), known: Vec::new(), drivers: Vec::new(), rows: Vec::new() }
+        Self { known: Vec::new(), drivers: Vec::new(), rows: DueRows::every(every) }
     }
 }
 
@@ -63,7 +63,7 @@ fn values(drivers: &[Driver], length: f64) -> Row {
     Row { vehicles: n, speed: lane.speed, density: lane.density, flow: lane.flow, slope, top }
 }
 
-/// The largest flow of different drivers, over their common speed v: 1/q = Σ h_j(v)/(n·v) has one minimum, since
+/// The largest flow of heterogeneous drivers over their common speed v: 1/q = Σ h_j(v)/(n·v) has one minimum, since
 /// every h_j is convex. Ternary search.
 fn capacity(drivers: &[Driver]) -> Capacity {
     let density = |v: f64| drivers.len() as f64 / drivers.iter().map(|d| d.headway(v)).sum::<f64>();
@@ -80,7 +80,7 @@ fn capacity(drivers: &[Driver]) -> Capacity {
     Capacity { density: density(v), flow: v * density(v) }
 }
 
-/// Equal to the last bit, none equal to none.
+/// Whether two rows are equal to the last bit; NaN equals NaN.
 fn same(a: &Row, b: &Row) -> bool {
     let bits = |r: &Row| [r.speed, r.density, r.flow, r.slope, r.top.density, r.top.flow].map(f64::to_bits);
     a.vehicles == b.vehicles && bits(a) == bits(b)
@@ -88,31 +88,27 @@ fn same(a: &Row, b: &Row) -> bool {
 
 impl Probe for Equilibria {
     fn observe(&mut self, simulation: &Simulation) {
-        let due = self.schedule.due(simulation);
-        if due == Due::Nothing {
-            return;
-        }
+        let Some(replaced) = self.rows.begin(simulation) else { return };
         let time = simulation.time();
         let lanes = simulation.vehicles_per_lane().len();
         self.known.resize(lanes, None);
-        if due == Due::Again {
-            self.rows.retain(|row| row.0 != time);
+        if !replaced.is_empty() {
             self.known.fill(None);
         }
         for lane in 0..lanes {
             self.drivers.clear();
             let in_lane = (0..simulation.vehicles()).filter(|&j| simulation.lane(j) == lane);
             self.drivers.extend(in_lane.map(|j| *simulation.driver(j)));
-            let alike = |known: &Vec<Driver>| {
+            let is_same = |known: &Vec<Driver>| {
                 known.len() == self.drivers.len()
                     && known.iter().zip(&self.drivers).all(|(a, b)| a.law() == b.law())
             };
-            if self.known[lane].as_ref().is_some_and(alike) {
+            if self.known[lane].as_ref().is_some_and(is_same) {
                 continue;
             }
             let row = values(&self.drivers, simulation.scenario().length);
             self.known[lane].get_or_insert_default().clone_from(&self.drivers);
-            let before = self.rows.iter().rev().find(|r| r.1 == lane);
+            let before = self.rows.rows().iter().rev().find(|r| r.1 == lane);
             if !before.is_some_and(|(_, _, before)| same(before, &row)) {
                 self.rows.push((time, lane, row));
             }
@@ -120,21 +116,11 @@ impl Probe for Equilibria {
     }
 
     fn table(&self) -> Table {
-        let column = |f: fn(&Row) -> f64| self.rows.iter().map(|r| f(&r.2)).collect();
+        let column = |f: fn(&Row) -> f64| self.rows.rows().iter().map(|r| f(&r.2)).collect();
         Table::new(vec![
-            Column::float(
-                "time_s",
-                "s",
-                "time from which on it holds",
-                self.rows.iter().map(|r| r.0).collect(),
-            ),
-            Column::whole("lane", "", "the lane", self.rows.iter().map(|r| r.1 as u64 + 1).collect()),
-            Column::whole(
-                "vehicles",
-                "",
-                "vehicles in it",
-                self.rows.iter().map(|r| r.2.vehicles as u64).collect(),
-            ),
+            Column::float("time_s", "s", "time from which on it holds", self.rows.each(|r| r.0)),
+            Column::whole("lane", "", "the lane", self.rows.each(|r| r.1 as u64 + 1)),
+            Column::whole("vehicles", "", "vehicles in it", self.rows.each(|r| r.2.vehicles as u64)),
             Column::float("equilibrium_speed_m_per_s", "m/s", "v∞, the common speed", column(|r| r.speed)),
             Column::float("density_veh_per_m", "veh/m", "ρ", column(|r| r.density)),
             Column::float("flow_veh_per_s", "veh/s", "q = ρ·v∞", column(|r| r.flow)),

@@ -7,15 +7,16 @@ use crate::simulation::{Event, Simulation};
 /// The probe of the table `events`.
 #[derive(Clone, Debug, Default)]
 pub struct Events {
-    /// Step and whether collided, of the last state seen: an action made by hand shows it twice.
-    seen: Option<(u64, bool)>,
+    /// Step of the last state, and whether it has collided. An action made by hand shows the same state twice; its events are
+    /// taken once.
+    last_state: Option<(u64, bool)>,
     events: Vec<(f64, Event)>,
 }
 
 impl Probe for Events {
     fn observe(&mut self, simulation: &Simulation) {
         let state = (simulation.step_index(), simulation.collision().is_some());
-        if self.seen.replace(state) == Some(state) {
+        if self.last_state.replace(state) == Some(state) {
             return;
         }
         let time = simulation.events_time();

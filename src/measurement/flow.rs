@@ -1,12 +1,13 @@
 //! Flow past a place over a window δ, and its space-time map, all lanes together:
 //! `Q(t, x) = (1/δ)·Σ_j [⌊(X_j(t) − x)/L⌋ − ⌊(X_j(t − δ) − x)/L⌋]` with unwrapped positions X_j, so that every
-//! lap counts and a vehicle pushed back is counted back. It does not exist for t < δ.
+//! lap counts, and a vehicle that is displaced backwards is subtracted. Q does not exist for t < δ.
 //!
-//! The two sums are numbers of passings since ever; one state gives them for all places in O(N + places), by
-//! counting the vehicles between neighbouring places and summing up along the ring. So the probe keeps, for each
-//! row to come, one whole number a place instead of the positions of all vehicles.
+//! Each of the two sums is the number of passings since the beginning, up to a constant. One state gives it for all
+//! positions x in O(N + positions), by counting the vehicles between neighbouring positions and summing up along the ring. So
+//! the probe keeps, for each row to come, one whole number for each position instead of the positions of all vehicles.
 
-use super::probe::{Due, Probe, Schedule};
+use super::due_rows::DueRows;
+use super::probe::Probe;
 use super::speed_map::{centre, centres_below, map_table};
 use crate::format::table::{Column, Table};
 use crate::scenario::Scenario;
@@ -15,26 +16,25 @@ use crate::simulation::Simulation;
 /// The probe of the tables `flow` and `flow-map`.
 #[derive(Clone, Debug)]
 pub struct Flow {
-    schedule: Schedule,
     every: u64,
     /// δ in steps and in s.
     window: u64,
     seconds: f64,
     length: f64,
-    /// One place, or the centres of so many cells.
+    /// One position, m; none for the centres of `bins` cells.
     place: Option<f64>,
     bins: usize,
-    /// Passings at the beginning of the windows of the rows to come; row m·every is in slot m modulo their number.
+    /// Passings at the beginning of the windows of the rows to come; the row of step m·every has slot m modulo their number.
     begun: Vec<i64>,
     /// The step at which each slot was filled.
     begun_at: Vec<Option<u64>>,
     passings: Vec<i64>,
-    times: Vec<f64>,
-    flows: Vec<f64>,
+    /// At each time the flow past each place, veh/s.
+    flows: DueRows<f64>,
 }
 
 impl Flow {
-    /// Flow past one place (m) every so many steps, over a window in steps.
+    /// Flow past one position (m) every so many steps, over a window in steps.
     pub fn at(scenario: &Scenario, every: u64, window: u64, place: f64) -> Self {
         Self::new(scenario, every, window, Some(place), 1)
     }
@@ -47,7 +47,6 @@ impl Flow {
     fn new(scenario: &Scenario, every: u64, window: u64, place: Option<f64>, bins: usize) -> Self {
         let slots = (window / every) as usize + 2;
         Self {
-            schedule: Schedule::new(every),
             every,
             window,
             seconds: window as f64 * scenario.time_step,
@@ -57,13 +56,12 @@ impl Flow {
             begun: vec![0; slots * bins],
             begun_at: vec![None; slots],
             passings: vec![0; bins],
-            times: Vec::new(),
-            flows: Vec::new(),
+            flows: DueRows::every(every),
         }
     }
 
-    /// Passings of every place since ever, up to a constant that the state does not change:
-    /// Σ_j ⌊(X_j − x)/L⌋ = Σ_j ⌊X_j/L⌋ − (number of vehicles short of x on their lap).
+    /// Counts the passings of every position since the beginning, up to a constant:
+    /// Σ_j ⌊(X_j − x)/L⌋ = Σ_j ⌊X_j/L⌋ − (number of vehicles that have not reached x on their lap).
     fn count(&mut self, simulation: &Simulation) {
         let mut laps = 0;
         self.passings.fill(0);
@@ -82,17 +80,17 @@ impl Flow {
             laps += lap as i64;
             let beyond = match self.place {
                 Some(place) => usize::from(place <= x),
-                // A centre that the vehicle stands on is passed.
+                // A centre at the position of the vehicle is passed.
                 None => self.centres_reached(x),
             };
             if beyond < self.bins {
                 self.passings[beyond] += 1;
             }
         }
-        let mut short = 0;
+        let mut before = 0;
         for passings in &mut self.passings {
-            short += *passings;
-            *passings = laps - short;
+            before += *passings;
+            *passings = laps - before;
         }
     }
 
@@ -105,9 +103,9 @@ impl Flow {
 impl Probe for Flow {
     fn observe(&mut self, simulation: &Simulation) {
         let step = simulation.step_index();
-        let due = self.schedule.due(simulation);
+        let due = self.flows.begin(simulation).is_some();
         let begins = (step + self.window).is_multiple_of(self.every);
-        if due == Due::Nothing && !begins {
+        if !due && !begins {
             return;
         }
         self.count(simulation);
@@ -117,14 +115,9 @@ impl Probe for Flow {
             self.begun_at[slot] = Some(step);
             self.begun[slot * bins..][..bins].copy_from_slice(&self.passings);
         }
-        if due == Due::Nothing {
+        if !due {
             return;
         }
-        if due == Due::Again {
-            self.times.pop();
-            self.flows.truncate(self.times.len() * bins);
-        }
-        self.times.push(simulation.time());
         let slot = (step / self.every) as usize % self.begun_at.len();
         let known = step >= self.window && self.begun_at[slot] == Some(step - self.window);
         for k in 0..bins {
@@ -135,10 +128,13 @@ impl Probe for Flow {
 
     fn table(&self) -> Table {
         let meaning = format!("flow over the last {} s, all lanes together; none before", self.seconds);
-        let flow = Column::float("flow_veh_per_s", "veh/s", meaning, self.flows.clone());
+        let (name, unit) = ("flow_veh_per_s", "veh/s");
         match self.place {
-            Some(_) => Table::new(vec![Column::float("time_s", "s", "time", self.times.clone()), flow]),
-            None => map_table(&self.times, self.bins, self.length, flow),
+            Some(_) => Table::new(vec![
+                self.flows.time_column(),
+                Column::float(name, unit, meaning, self.flows.rows().to_vec()),
+            ]),
+            None => map_table(&self.flows, self.bins, self.length, name, unit, meaning),
         }
     }
 }

@@ -4,54 +4,52 @@
 //! that all vehicles together have driven in the time T, the mean speed is s/(N·T) and the mean flow, all lanes
 //! together, s/(L·T).
 
-use super::probe::{Due, Probe, Schedule};
+use super::due_rows::DueRows;
+use super::lanes::{imbalance, lane_changes};
+use super::probe::Probe;
 use crate::format::table::{Column, Table};
 use crate::scenario::Scenario;
 use crate::simulation::Simulation;
 
-/// What one look gives.
+/// The whole ring at a time.
 #[derive(Clone, Copy, Debug)]
-struct Look {
+struct RingState {
     time: f64,
-    /// Driven by all vehicles since t = 0, m.
+    /// Distance driven by all vehicles together since t = 0, m.
     distance: f64,
     speed_deviation: f64,
     lane_changes: f64,
     imbalance: u64,
 }
 
-impl Look {
+impl RingState {
     fn at(simulation: &Simulation) -> Self {
         let n = simulation.vehicles();
         let speeds = simulation.speeds();
-        // Seen from one of them, equal speeds deviate by nothing.
+        // The mean is taken relative to one of the speeds, so that equal speeds have a deviation of exactly 0.
         let mean = speeds[0] + speeds.iter().map(|v| v - speeds[0]).sum::<f64>() / n as f64;
         let squares: f64 = speeds.iter().map(|v| (v - mean) * (v - mean)).sum();
-        let changes: u64 = (0..n).map(|j| u64::from(simulation.lane_changes(j))).sum();
-        let counts = simulation.vehicles_per_lane();
-        let most = counts.iter().max().copied().unwrap_or(0);
-        let fewest = counts.iter().min().copied().unwrap_or(0);
         Self {
             time: simulation.time(),
             distance: (0..n).map(|j| simulation.distance(j)).sum(),
             speed_deviation: (squares / n as f64).sqrt(),
-            lane_changes: changes as f64 / n as f64,
-            imbalance: (most - fewest) as u64,
+            lane_changes: lane_changes(simulation) as f64 / n as f64,
+            imbalance: imbalance(simulation.vehicles_per_lane()) as u64,
         }
     }
 }
 
 /// The columns that both tables have; `span` says over which time means are taken.
-fn columns(scenario: (f64, f64), span: &str, looks: &[Look]) -> Vec<Column> {
+fn columns(scenario: (f64, f64), span: &str, states: &[RingState]) -> Vec<Column> {
     let (vehicles, length) = scenario;
-    // Distance per time since the look before, or since t = 0.
+    // Distance per time since the row before, or since t = 0.
     let rate = |k: usize| {
-        let (before, driven) = k.checked_sub(1).map_or((0.0, 0.0), |k| (looks[k].time, looks[k].distance));
-        let time = looks[k].time - before;
-        if time > 0.0 { (looks[k].distance - driven) / time } else { f64::NAN }
+        let (before, driven) = k.checked_sub(1).map_or((0.0, 0.0), |k| (states[k].time, states[k].distance));
+        let time = states[k].time - before;
+        if time > 0.0 { (states[k].distance - driven) / time } else { f64::NAN }
     };
-    let speeds = (0..looks.len()).map(|k| rate(k) / vehicles).collect();
-    let flows = (0..looks.len()).map(|k| rate(k) / length).collect();
+    let speeds = (0..states.len()).map(|k| rate(k) / vehicles).collect();
+    let flows = (0..states.len()).map(|k| rate(k) / length).collect();
     vec![
         Column::float("mean_speed_m_per_s", "m/s", format!("mean speed of all vehicles {span}"), speeds),
         Column::float(
@@ -64,19 +62,19 @@ fn columns(scenario: (f64, f64), span: &str, looks: &[Look]) -> Vec<Column> {
             "speed_deviation_m_per_s",
             "m/s",
             "standard deviation of the vehicles' speeds at that time",
-            looks.iter().map(|l| l.speed_deviation).collect(),
+            states.iter().map(|l| l.speed_deviation).collect(),
         ),
         Column::float(
             "lane_changes_per_vehicle",
             "",
             "lane changes since t = 0, mean of all vehicles",
-            looks.iter().map(|l| l.lane_changes).collect(),
+            states.iter().map(|l| l.lane_changes).collect(),
         ),
         Column::whole(
             "imbalance",
             "",
             "ΔN, largest minus smallest number of vehicles in a lane",
-            looks.iter().map(|l| l.imbalance).collect(),
+            states.iter().map(|l| l.imbalance).collect(),
         ),
     ]
 }
@@ -84,47 +82,38 @@ fn columns(scenario: (f64, f64), span: &str, looks: &[Look]) -> Vec<Column> {
 /// The probe of the table `overview`.
 #[derive(Clone, Debug)]
 pub struct Overview {
-    schedule: Schedule,
     /// N and L.
     ring: (f64, f64),
-    looks: Vec<Look>,
+    states: DueRows<RingState>,
 }
 
 impl Overview {
     /// Rows every so many steps.
     pub fn new(scenario: &Scenario, every: u64) -> Self {
         let ring = (scenario.vehicles as f64, scenario.length);
-        Self { schedule: Schedule::new(every), ring, looks: Vec::new() }
+        Self { ring, states: DueRows::every(every) }
     }
 }
 
 impl Probe for Overview {
     fn observe(&mut self, simulation: &Simulation) {
-        match self.schedule.due(simulation) {
-            Due::Nothing => return,
-            Due::Row => {}
-            Due::Again => {
-                self.looks.pop();
-            }
-        }
-        self.looks.push(Look::at(simulation));
+        self.states.record(simulation, || RingState::at(simulation));
     }
 
     fn table(&self) -> Table {
-        let times = self.looks.iter().map(|l| l.time).collect();
-        let mut all = vec![Column::float("time_s", "s", "time", times)];
-        all.extend(columns(self.ring, "since the row before", &self.looks));
+        let mut all = vec![self.states.time_column()];
+        all.extend(columns(self.ring, "since the row before", self.states.rows()));
         Table::new(all)
     }
 }
 
-/// The probe of the table `outcome`: no row before the run has ended, since looking at every step would take longer
-/// than the step.
+/// The probe of the table `outcome`. It has no row before the run has ended: evaluating every step would take longer than the
+/// step itself.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     ring: (f64, f64),
     collided: bool,
-    end: Option<Look>,
+    end: Option<RingState>,
 }
 
 impl Outcome {
@@ -138,27 +127,27 @@ impl Probe for Outcome {
     fn observe(&mut self, simulation: &Simulation) {
         if simulation.is_finished() {
             self.collided = simulation.collision().is_some();
-            self.end = Some(Look::at(simulation));
+            self.end = Some(RingState::at(simulation));
         }
     }
 
     fn table(&self) -> Table {
-        let looks: Vec<Look> = self.end.into_iter().collect();
+        let states: Vec<RingState> = self.end.into_iter().collect();
         let outcome = if self.collided { "collision" } else { "end" };
         let mut all = vec![
             Column::text(
                 "outcome",
                 "collision, or the end asked for",
-                looks.iter().map(|_| outcome.to_owned()).collect(),
+                states.iter().map(|_| outcome.to_owned()).collect(),
             ),
             Column::float(
                 "end_time_s",
                 "s",
                 "time at which the run ended",
-                looks.iter().map(|l| l.time).collect(),
+                states.iter().map(|l| l.time).collect(),
             ),
         ];
-        all.extend(columns(self.ring, "since t = 0", &looks));
+        all.extend(columns(self.ring, "since t = 0", &states));
         Table::new(all)
     }
 }

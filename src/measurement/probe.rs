@@ -1,8 +1,27 @@
-//! Probes: the only way to measure. Each looks at the simulation after a step, keeps what it needs, and gives a
+//! Probes: the only way to measure. A probe looks at the simulation after every step, keeps what it needs, and gives a
 //! [`Table`] at any time.
 //!
-//! A probe's rows depend on the states that it saw and on nothing else; so a table taken in mid-run is the one
-//! that a run with `until` at that time gives. (An outcome alone waits for the end.)
+//! The rows of a probe depend on the states that it has seen and on nothing else. So a table taken in mid-run is the one
+//! that a run with `until` at that time gives. (Only the table `outcome` has no row before the end.)
+//!
+//! [`crate::measurement`] has an example of a probe of one's own.
+//!
+//! ```
+//! use ringroad::measurement::{Measurement, act, measure};
+//! use ringroad::scenario::Scenario;
+//! use ringroad::simulation::Simulation;
+//!
+//! let scenario = Scenario { until: 2.0, ..Scenario::default() };
+//! let mut simulation = Simulation::new(&scenario)?;
+//! let mut probes = [Measurement::named("speeds")?.probe(&scenario)?];
+//! // Vehicle 1 stands for one second.
+//! act(&mut simulation, &mut probes, "at=0:1:brake=1".parse()?)?;
+//! measure(&mut simulation, &mut probes, &mut |_| true);
+//! let table = probes[0].table();
+//! let speeds = table.floats("v_1_m_per_s").unwrap();
+//! assert!(speeds[0] == 0.0 && speeds[2] > 0.0);
+//! # Ok::<(), ringroad::error::Error>(())
+//! ```
 
 use crate::error::Error;
 use crate::format::table::Table;
@@ -11,18 +30,18 @@ use crate::simulation::Simulation;
 
 /// Something that measures.
 ///
-/// [`Probe::observe`] is called on the initial state, then once after every call of `Simulation::step` (also the
-/// one that ends in a collision and does not advance the time), and again after an action made by hand. Seeing a
-/// time twice replaces what was seen of it before.
+/// [`Probe::observe`] is called on the initial state, then once after every call of `Simulation::step` (also after the
+/// one that ends in a collision and does not advance the time), and again after an action made by hand. When a time is
+/// shown twice, the second look replaces the first.
 pub trait Probe: Send {
     /// Looks at the present state.
     fn observe(&mut self, simulation: &Simulation);
-    /// What was measured so far.
+    /// What has been measured so far.
     fn table(&self) -> Table;
 }
 
-/// Runs the simulation to its end, from the present state on, with probes. Every so many steps `progress` gets
-/// the number of the step reached and says whether to go on. Returns whether the end was reached.
+/// Runs the simulation from its present state to its end, with probes. About every 10 ms of computing time, and at the end,
+/// `progress` gets the number of steps reached; it returns whether to go on. Returns whether the end was reached.
 pub fn measure(
     simulation: &mut Simulation,
     probes: &mut [Box<dyn Probe>],
@@ -42,8 +61,11 @@ pub fn measure(
     true
 }
 
-/// An action made by hand at the present time, seen by the probes as a replay will see it: a row at a time is the
+/// Applies an action at the present time and shows the state to the probes again, as a replay does: a row of a time is the
 /// state after the actions of that time.
+///
+/// # Errors
+/// What is wrong with the action; then nothing has changed.
 pub fn act(simulation: &mut Simulation, probes: &mut [Box<dyn Probe>], action: Action) -> Result<(), Error> {
     simulation.act(action)?;
     observe(simulation, probes);
@@ -53,42 +75,5 @@ pub fn act(simulation: &mut Simulation, probes: &mut [Box<dyn Probe>], action: A
 fn observe(simulation: &Simulation, probes: &mut [Box<dyn Probe>]) {
     for probe in probes {
         probe.observe(simulation);
-    }
-}
-
-/// Which states give a row: every so many steps, and for some tables the state of a collision.
-#[derive(Clone, Debug)]
-pub(super) struct Schedule {
-    every: u64,
-    at_collision: bool,
-    last: Option<u64>,
-}
-
-/// What a [`Schedule`] says of a state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Due {
-    /// No row.
-    Nothing,
-    /// A row.
-    Row,
-    /// A row in place of the last one, which is of the same time.
-    Again,
-}
-
-impl Schedule {
-    pub(super) fn new(every: u64) -> Self {
-        Self { every, at_collision: false, last: None }
-    }
-
-    pub(super) fn with_collision(every: u64) -> Self {
-        Self { at_collision: true, ..Self::new(every) }
-    }
-
-    pub(super) fn due(&mut self, simulation: &Simulation) -> Due {
-        let step = simulation.step_index();
-        if step % self.every != 0 && !(self.at_collision && simulation.collision().is_some()) {
-            return Due::Nothing;
-        }
-        if self.last.replace(step) == Some(step) { Due::Again } else { Due::Row }
     }
 }

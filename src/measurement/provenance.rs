@@ -2,45 +2,54 @@
 //!
 //! Each begins with `#`: the program and its version, then, as one line of JSON each, the scenario and the measurement of a
 //! run, or the plan of a batch.
+//!
+//! ```
+//! use ringroad::measurement::provenance::{Provenance, VERSION, run_to_csv};
+//! use ringroad::measurement::{Measurement, measure};
+//! use ringroad::scenario::Scenario;
+//! use ringroad::simulation::Simulation;
+//!
+//! let scenario = Scenario { until: 10.0, ..Scenario::default() };
+//! let measurement = Measurement::named("overview")?;
+//! let mut probes = [measurement.probe(&scenario)?];
+//! measure(&mut Simulation::new(&scenario)?, &mut probes, &mut |_| true);
+//!
+//! let csv = run_to_csv(&probes[0].table(), &scenario, &measurement);
+//! let made_by = Provenance::from_csv(&csv)?;
+//! assert_eq!((made_by.version.as_str(), made_by.scenario), (VERSION, scenario));
+//! assert_eq!(made_by.measurement, measurement);
+//! # Ok::<(), ringroad::error::Error>(())
+//! ```
 
-use super::settings::Measurement;
+use super::definition::Measurement;
+use super::header::{Word, with_header};
 use crate::error::{Error, opening};
 use crate::format::table::Table;
 use crate::scenario::Scenario;
 
-/// Version that a file names: a run is promised to repeat to the last bit within one.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-const PROGRAM: &str = "# ringroad ";
-const SCENARIO: &str = "# scenario ";
-/// Of the table of a batch; what follows is its plan.
-pub(crate) const PLAN: &str = "# plan ";
-const MEASUREMENT: &str = "# measurement ";
-const COMPUTED: &str = "# computed ";
+pub use super::header::VERSION;
 
 /// The table of a run as CSV, with the scenario and the measurement in the header.
 pub fn run_to_csv(table: &Table, scenario: &Scenario, measurement: &Measurement) -> String {
-    let made_by = format!("{MEASUREMENT}{}", measurement.resolved(scenario).to_json());
-    with_header(table, &[&format!("{SCENARIO}{}", scenario.to_json()), &made_by])
+    let measurement = measurement.resolved(scenario).to_json();
+    with_header(table, &[(Word::Scenario, &scenario.to_json()), (Word::Measurement, &measurement)])
 }
 
-/// A table that was computed from a scenario without a run, as CSV; `how` says what was asked, in one line.
+/// A table that was computed from a scenario without a run, as CSV; `how` says in one line what was computed.
 pub fn theory_to_csv(table: &Table, scenario: &Scenario, how: &str) -> String {
-    with_header(table, &[&format!("{SCENARIO}{}", scenario.to_json()), &format!("{COMPUTED}{how}")])
+    with_header(table, &[(Word::Scenario, &scenario.to_json()), (Word::Computed, how)])
 }
 
-/// A table as CSV below the line that names the program and these lines.
-pub(crate) fn with_header(table: &Table, lines: &[&str]) -> String {
-    let mut out = format!("{PROGRAM}{VERSION}\n");
-    for line in lines {
-        out.push_str(line);
-        out.push('\n');
-    }
-    table.write_body(&mut out);
-    out
+/// A table of a figure that was made from many runs or theory, as CSV; `how` says in one line what was varied from the
+/// scenario and how often it was run.
+pub(crate) fn figure_to_csv(table: &Table, name: &str, scenario: &Scenario, how: &str) -> String {
+    let scenario = scenario.to_json();
+    with_header(table, &[(Word::FigureTable, name), (Word::Scenario, &scenario), (Word::MadeFrom, how)])
 }
 
 /// What the header of a CSV file says about its making.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Provenance {
     /// Version of the program that wrote it.
     pub version: String,
@@ -51,27 +60,27 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// The version that wrote a file, for a reader that may not understand the rest.
+    /// The version that wrote a file. It can be read even where another version has changed the lines below.
     pub fn version_of(text: &str) -> Result<&str, Error> {
-        header_line(text, PROGRAM).map(str::trim)
+        Word::Program.read(text).map(str::trim)
     }
 
     /// Reads the header of a file that [`run_to_csv`] wrote.
     pub fn from_csv(text: &str) -> Result<Self, Error> {
         let version = Self::version_of(text)?.to_owned();
-        if header_line(text, PLAN).is_ok() {
+        if Word::Plan.read(text).is_ok() {
             let allowed =
                 "the table of one run; a batch is repeated by `ringroad batch --plan` with this file";
             return Err(Error::not_ours("file", "the table of a batch", allowed));
         }
-        if header_line(text, COMPUTED).is_ok() {
+        if Word::Computed.read(text).is_ok() {
             return Err(Error::not_ours("file", "a table that theory computed", "the table of one run"));
         }
         Ok(Self {
             version,
-            scenario: Scenario::from_json(header_line(text, SCENARIO)?)
+            scenario: Scenario::from_json(Word::Scenario.read(text)?)
                 .map_err(|e| e.within("CSV header, scenario"))?,
-            measurement: Measurement::from_json(header_line(text, MEASUREMENT)?)
+            measurement: Measurement::from_json(Word::Measurement.read(text)?)
                 .map_err(|e| e.within("CSV header, measurement"))?,
         })
     }
@@ -90,13 +99,6 @@ pub fn scenario_of_file(text: &str) -> Result<(Scenario, Option<String>), Error>
             "a scenario in JSON or a table of Ringroad; it is neither",
         ))
     }
-}
-
-/// The rest of the header line that begins with `prefix`.
-pub(crate) fn header_line<'a>(text: &'a str, prefix: &str) -> Result<&'a str, Error> {
-    text.lines().take_while(|l| l.starts_with('#')).find_map(|l| l.strip_prefix(prefix)).ok_or_else(|| {
-        Error::not_ours("CSV header", opening(text), format!("a file of Ringroad, with a line “{prefix}…”"))
-    })
 }
 
 #[cfg(test)]
@@ -118,7 +120,7 @@ mod tests {
         assert_eq!((read.version.as_str(), &read.scenario), (VERSION, &scenario));
         // Defaults that follow from the scenario are written out.
         assert_eq!(read.measurement, Measurement::Flow { every: 1.0, window: 5.0, at: Some(500.0) });
-        assert_eq!(Provenance::version_of("# ringroad 9.8.7\nwhat nobody knows yet"), Ok("9.8.7"));
+        assert_eq!(Provenance::version_of("# ringroad 9.8.7\na line of a later version"), Ok("9.8.7"));
         assert_eq!(scenario_of_file(&csv), Ok((scenario.clone(), Some(VERSION.to_owned()))));
         assert_eq!(scenario_of_file(&format!(" {}", scenario.to_json())), Ok((scenario, None)));
         for (text, opening) in [("hello\nyou", "“hello”"), ("", "“”"), ("\u{1b}[2J", "“ [2J”")] {

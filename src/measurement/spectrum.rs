@@ -1,20 +1,34 @@
-//! Fourier modes of the headways of one lane: what [`super::modes`] and [`super::modal_growth`] share.
+//! Fourier modes of the headways of one lane. This file defines the amplitude of a mode; the tables `modes` and `growth`
+//! and the watched run all take it from here.
+//!
+//! δ_k = h_k − h_k(v∞) is the deviation of a headway from its equilibrium value, where k counts the n vehicles of the lane
+//! downstream. The amplitude of mode q is
+//!
+//! `A_q = (2/n)·|Σ_k δ_k·e^{2πi·qk/n}|`, half of that for q = n/2,
+//!
+//! so that a wave of ±1 m has amplitude 1 m.
 
+use crate::numerics::least_squares;
 use crate::scenario::driver::{Driver, equilibrium};
 use crate::simulation::Simulation;
 use crate::stability::driver_classes::DriverClasses;
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
-/// Amplitudes of the modes of δ_k = h_k − h_k(v∞), where k counts the vehicles of the lane downstream:
-/// `A_q = (2/n)·|Σ_k δ_k·e^{2πi·qk/n}|`, half of that for q = n/2; so a wave of ±1 m has amplitude 1 m.
+/// The amplitudes of some modes of a lane in the state that was read last.
 #[derive(Clone, Debug)]
-pub(super) struct Spectrum {
+pub(crate) struct Spectrum {
     lane: usize,
-    /// A_q of q = 1 … at index q − 1, m; NaN for modes above n/2.
+    modes: RangeInclusive<usize>,
+    /// A_q of each of the modes, m; NaN for modes above n/2.
     pub amplitudes: Vec<f64>,
     /// Largest |δ_k|, m.
     pub largest: f64,
-    /// (λ/V)·mean of δ_k², m: the second order of the speed law against its first, before division by an amplitude.
-    /// Infinite while somebody stands who in equilibrium drives: the law has a kink there.
+    /// Largest |δ_k| as a share of the distance from the equilibrium headway h_k(v∞) to the minimum headway.
+    pub largest_share: f64,
+    /// Mean over the lane of (λ/V)·δ_k², m: divided by an amplitude it is the second-order term of the speed law as a share of
+    /// the first. Infinite while a vehicle stands that moves in equilibrium: there the speed law has a kink, and no
+    /// expansion holds.
     pub second_order: f64,
     /// Vehicles in the lane from the lowest number on, downstream.
     order: Vec<usize>,
@@ -27,11 +41,14 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    pub(super) fn new(lane: usize, modes: usize) -> Self {
+    /// Of these modes of a lane (from 0).
+    pub(crate) fn new(lane: usize, modes: RangeInclusive<usize>) -> Self {
         Self {
             lane,
-            amplitudes: vec![f64::NAN; modes],
+            amplitudes: vec![f64::NAN; modes.clone().count()],
+            modes,
             largest: f64::NAN,
+            largest_share: f64::NAN,
             second_order: f64::NAN,
             order: Vec::new(),
             drivers: Vec::new(),
@@ -43,13 +60,16 @@ impl Spectrum {
 
     /// Reads a state. Returns whether the lane holds the same vehicles, in the same order and with the same
     /// equilibrium as the state read before.
-    pub(super) fn read(&mut self, simulation: &Simulation) -> bool {
+    pub(crate) fn read(&mut self, simulation: &Simulation) -> bool {
         let same = self.is_prepared_for(simulation);
         if !same {
             self.prepare(simulation);
         }
         let n = self.order.len();
         self.largest = self.deviations(simulation).map(f64::abs).fold(0.0, f64::max);
+        let room = self.equilibrium.iter().zip(&self.drivers).map(|(h, driver)| h - driver.min_headway);
+        self.largest_share =
+            self.deviations(simulation).zip(room).map(|(x, r)| x.abs() / r).fold(0.0, f64::max);
         let squares = self.deviations(simulation).zip(&self.drivers);
         self.second_order = squares.map(|(x, d)| d.sensitivity / d.max_speed * x * x).sum::<f64>() / n as f64;
         let stands = |(&j, driver): (&usize, &Driver)| {
@@ -58,9 +78,9 @@ impl Spectrum {
         if self.slopes.iter().any(|&c| c > 0.0) && self.order.iter().zip(&self.drivers).any(stands) {
             self.second_order = f64::INFINITY;
         }
-        for q in 1..=self.amplitudes.len() {
+        for (place, q) in self.modes.clone().enumerate() {
             if 2 * q > n {
-                self.amplitudes[q - 1] = f64::NAN;
+                self.amplitudes[place] = f64::NAN;
                 continue;
             }
             let (mut real, mut imaginary, mut k) = (0.0, 0.0, 0);
@@ -74,16 +94,21 @@ impl Spectrum {
                 }
             }
             let scale = if 2 * q == n { 1.0 } else { 2.0 } / n as f64;
-            self.amplitudes[q - 1] = scale * libm::hypot(real, imaginary);
+            self.amplitudes[place] = scale * libm::hypot(real, imaginary);
         }
         same
     }
 
-    /// The lane read last as linear theory sees it, with the delays in force now.
-    pub(super) fn ring(&self, simulation: &Simulation) -> DriverClasses {
+    /// The drivers of the lane read last as linear theory needs them, with the delays in force now.
+    pub(super) fn classes(&self, simulation: &Simulation) -> DriverClasses {
         let dt = simulation.scenario().time_step;
         let delay = |&j: &usize| simulation.delay_steps(j) as f64 * dt;
         DriverClasses::new(self.slopes.iter().copied().zip(self.order.iter().map(delay)))
+    }
+
+    /// The rate of the linear motion of a mode in the lane read last; see [`linear_rate`].
+    pub(crate) fn linear_rate(&self, mode: usize) -> f64 {
+        linear_rate(self.slopes.iter().copied().fold(f64::NAN, f64::max), mode, self.order.len())
     }
 
     fn deviations<'a>(&'a self, simulation: &'a Simulation) -> impl Iterator<Item = f64> + 'a {
@@ -124,8 +149,59 @@ impl Spectrum {
         }
         self.circle.clear();
         self.circle.extend((0..n).map(|k| {
-            let angle = 2.0 * std::f64::consts::PI * k as f64 / n as f64;
+            let angle = 2.0 * PI * k as f64 / n as f64;
             (libm::cos(angle), libm::sin(angle))
         }));
+    }
+}
+
+/// 2c·sin(πq/n), 1/s: how fast the headways of mode q change for each metre of amplitude, where `slope` is c, the largest
+/// slope dv/dh (1/s) in equilibrium. It is the modulus of the eigenvalue d_q of the Jacobian.
+pub(super) fn linear_rate(slope: f64, mode: usize, vehicles: usize) -> f64 {
+    2.0 * slope * libm::sin(PI * mode as f64 / vehicles as f64)
+}
+
+/// The amplitude of one mode at a time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Amplitude {
+    /// Time, s.
+    pub time: f64,
+    /// A_q, m; positive.
+    pub value: f64,
+    /// [`Spectrum::second_order`] then, m.
+    pub second_order: f64,
+}
+
+/// Growth of one mode over a series of its amplitudes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slope {
+    /// Slope of ln|A_q|, 1/s; NaN for fewer than two amplitudes.
+    pub rate: f64,
+    /// Standard error of the slope, 1/s, which allows for correlated residuals: see [`least_squares::line`].
+    pub standard_error: f64,
+    /// How far the nonlinear part of the motion may have moved the slope, at most, 1/s: `linear_rate` times the mean of
+    /// second_order/A_q, with the weight t(T − t) that a constant addition to the rate at time t has in the slope of a
+    /// straight line over the time T.
+    pub nonlinear_bound: f64,
+}
+
+impl Slope {
+    /// Of amplitudes in order of time; for `linear_rate` see the function of that name.
+    pub(crate) fn of(series: &[Amplitude], linear_rate: f64) -> Self {
+        let logarithms: Vec<_> = series.iter().map(|a| (a.time, libm::log(a.value))).collect();
+        let line = least_squares::line(&logarithms);
+        let (mut sum, mut weights) = (0.0, 0.0);
+        if let [first, .., last] = series {
+            for a in series {
+                let weight = (a.time - first.time) * (last.time - a.time);
+                sum += weight * a.second_order / a.value;
+                weights += weight;
+            }
+        }
+        Self {
+            rate: line.map_or(f64::NAN, |l| l.slope),
+            standard_error: line.map_or(f64::NAN, |l| l.slope_error),
+            nonlinear_bound: linear_rate * sum / weights,
+        }
     }
 }

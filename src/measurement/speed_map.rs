@@ -1,7 +1,7 @@
-//! Space-time map of speed in one lane. The speed at a place is that of the vehicle whose headway holds the
-//! place: the next one upstream.
+//! Space-time map of speed in one lane. The speed at a position is that of the next vehicle upstream.
 
-use super::probe::{Due, Probe, Schedule};
+use super::due_rows::DueRows;
+use super::probe::Probe;
 use crate::format::table::{Column, Table};
 use crate::simulation::Simulation;
 
@@ -23,8 +23,8 @@ pub(super) fn centres_below(x: f64, bins: usize, length: f64) -> usize {
 }
 
 /// Fills `row` with the speeds at the centres of as many equal cells round the ring, in the given lane (from 0).
-/// A place belongs to the vehicle with x_j ≤ place < x_lead; NaN in an empty lane. Costs O(N + cells).
-pub fn speed_row(simulation: &Simulation, lane: usize, row: &mut [f64]) {
+/// A position x belongs to the vehicle with x_j ≤ x < x_lead; all are NaN in an empty lane. Costs O(N + cells).
+fn speed_row(simulation: &Simulation, lane: usize, row: &mut [f64]) {
     let (bins, length) = (row.len(), simulation.scenario().length);
     row.fill(f64::NAN);
     for j in (0..simulation.vehicles()).filter(|&j| simulation.lane(j) == lane) {
@@ -34,7 +34,7 @@ pub fn speed_row(simulation: &Simulation, lane: usize, row: &mut [f64]) {
             return;
         }
         if simulation.headway(j) <= 0.0 {
-            continue; // collided: holds no place
+            continue; // collided: no position belongs to it
         }
         let (x, x_ahead) = (simulation.position(j), simulation.position(ahead));
         let (first, end) = (centres_below(x, bins, length), centres_below(x_ahead, bins, length));
@@ -50,58 +50,47 @@ pub fn speed_row(simulation: &Simulation, lane: usize, row: &mut [f64]) {
 /// The probe of the table `speed-map`.
 #[derive(Clone, Debug)]
 pub struct SpeedMap {
-    schedule: Schedule,
     lane: usize,
     length: f64,
-    bins: usize,
-    times: Vec<f64>,
-    speeds: Vec<f64>,
+    /// The speeds of one time, m/s.
+    row: Vec<f64>,
+    speeds: DueRows<f64>,
 }
 
 impl SpeedMap {
-    /// A row of the map every so many steps, in `bins` cells; the lane from 0.
+    /// A row of the map every so many steps, in `bins` cells; the lane from 0, the length of the ring in m.
     pub fn new(every: u64, bins: usize, lane: usize, length: f64) -> Self {
-        Self { schedule: Schedule::new(every), lane, length, bins, times: Vec::new(), speeds: Vec::new() }
+        Self { lane, length, row: vec![f64::NAN; bins], speeds: DueRows::every(every) }
     }
 }
 
 impl Probe for SpeedMap {
     fn observe(&mut self, simulation: &Simulation) {
-        let due = self.schedule.due(simulation);
-        if due == Due::Nothing {
-            return;
+        if self.speeds.begin(simulation).is_some() {
+            speed_row(simulation, self.lane, &mut self.row);
+            self.speeds.extend(self.row.iter().copied());
         }
-        if due == Due::Again {
-            self.times.pop();
-        }
-        let start = self.times.len() * self.bins;
-        self.times.push(simulation.time());
-        self.speeds.resize(start + self.bins, f64::NAN);
-        speed_row(simulation, self.lane, &mut self.speeds[start..]);
     }
 
     fn table(&self) -> Table {
-        map_table(
-            &self.times,
-            self.bins,
-            self.length,
-            Column::float(
-                "speed_m_per_s",
-                "m/s",
-                format!("speed there in lane {}: of the next vehicle upstream", self.lane + 1),
-                self.speeds.clone(),
-            ),
-        )
+        let meaning = format!("speed there in lane {}: of the next vehicle upstream", self.lane + 1);
+        map_table(&self.speeds, self.row.len(), self.length, "speed_m_per_s", "m/s", meaning)
     }
 }
 
-/// A map in long form: a row for each time and place.
-pub(super) fn map_table(times: &[f64], bins: usize, length: f64, values: Column) -> Table {
-    let long = times.iter().flat_map(|&t| std::iter::repeat_n(t, bins)).collect();
-    let places = times.iter().flat_map(|_| (0..bins).map(|k| centre(k, bins, length))).collect();
+/// A map in long form: a row for each time and each of `bins` cells, the value in the column `name`.
+pub(super) fn map_table(
+    values: &DueRows<f64>,
+    bins: usize,
+    length: f64,
+    name: &str,
+    unit: &'static str,
+    meaning: String,
+) -> Table {
+    let places = values.times().iter().flat_map(|_| (0..bins).map(|k| centre(k, bins, length))).collect();
     Table::new(vec![
-        Column::float("time_s", "s", "time", long),
+        values.time_column(),
         Column::float("position_m", "m", "place on the ring, the centre of a cell", places),
-        values,
+        Column::float(name, unit, meaning, values.rows().to_vec()),
     ])
 }

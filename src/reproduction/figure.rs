@@ -5,11 +5,10 @@ use super::task::{Size, Task, TaskResult, run_all};
 use crate::error::Error;
 use crate::format::table::Table;
 use crate::measurement::Measurement;
-use crate::measurement::provenance::{VERSION, run_to_csv};
+use crate::measurement::provenance::{figure_to_csv, run_to_csv};
 use crate::plot::Plot;
 use crate::scenario::Scenario;
 use serde::Serialize;
-use std::fmt::Write as _;
 
 /// A figure of the paper, or one beyond it.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -145,11 +144,7 @@ impl FigureTable {
         match &self.source {
             Source::Run(scenario, measurement) => run_to_csv(&self.table, scenario, measurement),
             Source::Summary(scenario, made_from) => {
-                let mut out = format!("# ringroad {VERSION}\n# figure table {}\n", self.name);
-                let _ = writeln!(out, "# scenario {}", scenario.to_json());
-                let _ = writeln!(out, "# made from {made_from}");
-                self.table.write_body(&mut out);
-                out
+                figure_to_csv(&self.table, &self.name, scenario, made_from)
             }
         }
     }

@@ -169,7 +169,7 @@ impl Lab {
 
     /// What changes by actions and settings only, as JSON.
     pub fn snapshot(&mut self) -> String {
-        let said = verdict(self.live.verdict());
+        let said = verdict(self.live.stability_summary());
         let live = &self.live;
         let scenario = live.simulation().scenario();
         let now = live.settled().driver;

@@ -3,7 +3,7 @@
 use super::laboratory::{Lab, verdict};
 use super::refusal;
 use crate::format::json::{self, Json};
-use crate::format::table::Table;
+use crate::measurement::modal_growth::ModeGrowth;
 use crate::stability::stability_diagram::StabilityDiagram;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::*;
@@ -18,8 +18,8 @@ const CURVES: usize = 100;
 #[wasm_bindgen]
 impl Lab {
     fn numbers(&mut self) -> (StabilityDiagram, Vec<usize>) {
-        let plane = self.live.plane();
-        (plane, plane.numbers(self.live.verdict().vehicles, POINTS))
+        let plane = self.live.stability_diagram();
+        (plane, plane.numbers(self.live.stability_summary().vehicles, POINTS))
     }
 
     /// The plane of the lane that the verdict speaks of: the number of vehicles beyond which it is a jam; the reaction
@@ -47,7 +47,7 @@ impl Lab {
 
     /// The largest growth rate (1/s) with so many vehicles at `count` reaction times from 0 to `highest` s.
     pub fn growth_rates(&mut self, vehicles: usize, highest: f64, count: u32, in_steps: bool) -> Vec<f64> {
-        let plane = self.live.plane();
+        let plane = self.live.stability_diagram();
         let delays = (0..count).map(|k| highest * f64::from(k) / f64::from((count - 1).max(1)));
         plane.growth_rates(vehicles, delays, plane.time(in_steps))
     }
@@ -60,10 +60,7 @@ impl Lab {
     /// Growth of each of its modes since the last change, measured and predicted, as JSON.
     pub fn modal_growth(&self) -> String {
         let starts = self.live.modal_from();
-        let modes: Json = match self.live.modal_growth() {
-            Some(table) => modes(&table),
-            None => Json::List(Vec::new()),
-        };
+        let modes: Json = self.live.modal_growth().iter().map(mode).collect();
         Json::object([("starts", starts.into()), ("modes", modes)]).to_string()
     }
 
@@ -76,24 +73,16 @@ impl Lab {
     }
 }
 
-/// The rows of the table `growth`.
-fn modes(table: &Table) -> Json {
-    let column = |name: &str| table.floats(name).unwrap_or_default();
-    let (rate, error) = (column("growth_rate_per_s"), column("standard_error_per_s"));
-    let (predicted, bound) = (column("predicted_per_s"), column("nonlinear_bound_per_s"));
-    let (from, to) = (column("from_s"), column("to_s"));
-    let ended_by = table.texts("ended_by").unwrap_or_default();
-    let one = |k: usize| {
-        Json::object([
-            ("mode", (k + 1).into()),
-            ("rate", rate[k].into()),
-            ("standard_error", error[k].into()),
-            ("predicted", predicted[k].into()),
-            ("nonlinear_bound", bound[k].into()),
-            ("from", from[k].into()),
-            ("to", to[k].into()),
-            ("ended_by", ended_by[k].as_str().into()),
-        ])
-    };
-    (0..table.rows()).map(one).collect()
+/// Growth of one mode.
+fn mode(growth: &ModeGrowth) -> Json {
+    Json::object([
+        ("mode", growth.mode.into()),
+        ("rate", growth.rate.into()),
+        ("standard_error", growth.standard_error.into()),
+        ("predicted", growth.predicted.into()),
+        ("nonlinear_bound", growth.nonlinear_bound.into()),
+        ("from", growth.from.into()),
+        ("to", growth.to.into()),
+        ("ended_by", growth.ended_by.text().into()),
+    ])
 }
