@@ -14,8 +14,8 @@
 //! | file | subject |
 //! |---|---|
 //! | [`parameter_values`] | the values that a parameter takes |
-//! | [`plan`] | which runs there are |
-//! | [`run`] | computing runs, one or all |
+//! | `plan` | which runs there are |
+//! | `run` | computing runs, one or all |
 //! | `rows` | a table of all runs |
 //! | `summary` | statistics over the runs of each cell |
 //! | [`record`] | finished runs as text: to continue a batch, and to merge shards |
@@ -45,13 +45,13 @@
 //! ```
 
 pub mod parameter_values;
-pub mod plan;
+mod plan;
 pub mod record;
 mod rows;
-pub mod run;
+mod run;
 mod summary;
 
 pub use parameter_values::ParameterValues;
-pub use plan::Plan;
+pub use plan::{MOST_RUNS, Plan};
 pub use record::{Header, Shard};
 pub use run::{Run, run_all};
