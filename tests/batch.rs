@@ -1,5 +1,5 @@
-//! Batches: the bytes that come out depend on the plan alone, whatever happens on the way; and what makes no sense is
-//! refused before anything runs.
+//! Batches: the bytes of the table depend on the plan alone, not on threads, order, interruptions or shards; and plans that
+//! are not valid are refused before anything runs.
 
 use ringroad::batch::record::{self, Record};
 use ringroad::batch::{Header, ParameterValues, Plan, Run, Shard, run_all};
@@ -65,7 +65,7 @@ fn a_grid_is_run_in_order_with_consecutive_seeds() {
     assert_eq!(table.floats("reaction_time_s").unwrap(), delays);
 }
 
-/// Each run is the run of its scenario: measured by hand, it gives the same numbers.
+/// Each run gives the same numbers as its scenario run and measured separately.
 #[test]
 fn a_run_of_a_batch_is_the_run_of_its_scenario() {
     let plan = small();
@@ -85,12 +85,12 @@ fn a_run_of_a_batch_is_the_run_of_its_scenario() {
         assert_eq!(flows[k], distance / simulation.time() / run.length);
         collisions += u32::from(simulation.collision().is_some());
     }
-    // The sample has both outcomes.
+    // Among these runs both outcomes occur.
     assert!((1..4).contains(&collisions), "{collisions}");
 }
 
 #[test]
-fn threads_order_and_the_text_between_do_not_matter() {
+fn the_table_does_not_depend_on_threads_order_or_the_text_form() {
     for measurement in ["outcome", "overview", "drivers", "events"] {
         let plan = plan(measurement, &["reaction-time=0,1.5", "sensitivity=1,2"], 3);
         let numbers: Vec<u64> = (0..plan.runs()).collect();
@@ -99,7 +99,7 @@ fn threads_order_and_the_text_between_do_not_matter() {
         let expected = csv(&plan, &one);
         assert_eq!(csv(&plan, &runs(&plan, &numbers, 2)), expected);
         assert_eq!(csv(&plan, &runs(&plan, &backwards, 2)), expected);
-        // Through text and back.
+        // Written as text and read back.
         let text = record::write(&Header::new(plan.clone(), Shard::default(), false), &one);
         let back = Record::read(&text).unwrap();
         assert_eq!(csv(&back.header.plan, &back.runs), expected);
@@ -111,7 +111,7 @@ fn threads_order_and_the_text_between_do_not_matter() {
 }
 
 #[test]
-fn shards_merged_are_the_whole() {
+fn merged_shards_give_the_table_of_one_batch() {
     let plan = plan("overview", &["reaction-time=0,1.5"], 4);
     let expected = csv(&plan, &all(&plan));
     for count in [1, 2, 3, 7, 11] {
@@ -129,7 +129,7 @@ fn shards_merged_are_the_whole() {
 }
 
 #[test]
-fn shards_that_do_not_make_a_whole_are_refused() {
+fn shards_that_do_not_fit_together_are_refused() {
     let plan = small();
     let everything = all(&plan);
     let part = |name: &str, plan: &Plan, shard: &str, summary| {
@@ -168,13 +168,13 @@ fn shards_that_do_not_make_a_whole_are_refused() {
     old.1.header.ringroad = "0.0.9".into();
     let foreign = merged(vec![part("a", &plan, "1/2", false), old]);
     assert!(foreign.contains("0.0.9"), "{foreign}");
-    // Shards of different counts may fit together all the same.
+    // Shards of different counts may still complement each other.
     let parts = [("a", "1/2"), ("b", "2/4"), ("c", "4/4")];
     assert!(record::merge(parts.map(|(n, s)| part(n, &plan, s, false)).to_vec()).is_ok());
 }
 
 #[test]
-fn a_record_may_break_off_anywhere_and_nowhere_else() {
+fn a_record_may_end_in_an_incomplete_line_but_not_contain_a_wrong_one() {
     let plan = plan("overview", &[], 3);
     let runs = all(&plan);
     let text = record::write(&Header::new(plan.clone(), Shard::default(), false), &runs);
@@ -201,7 +201,7 @@ fn a_record_may_break_off_anywhere_and_nowhere_else() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused_before_anything_runs() {
+fn plans_that_are_not_valid_are_refused_before_anything_runs() {
     let outcome = || Measurement::named("outcome").unwrap();
     let make = |vary: &[&str], runs| message(Plan::new(scenario(), varied(vary), runs, outcome()));
     let holds = |message: String, words: &[&str]| {
@@ -215,7 +215,7 @@ fn what_makes_no_sense_is_refused_before_anything_runs() {
     holds(make(&["vehicles=1:40:1", "sensitivity=1:2:0.01"], 1000), &["4040", "4040000", "1000000"]);
     let last = Scenario { seed: (1 << 53) - 3, ..scenario() };
     holds(message(Plan::new(last, vec![], 10, outcome())), &["seed", "9007199254740991"]);
-    // Shares are drawn by the seed; a vehicle of 45 m fits in front of none.
+    // The vehicles of a share depend on the seed; a vehicle of 45 m does not fit behind any other.
     let long = Scenario { overrides: vec!["50%:vehicle-length=45".parse().unwrap()], ..scenario() };
     holds(message(Plan::new(long, vec![], 2, outcome())), &["length"]);
 
@@ -233,7 +233,7 @@ fn what_makes_no_sense_is_refused_before_anything_runs() {
     holds(message(events.check_summary()), &["events", "outcome"]);
 }
 
-/// The value of a varied parameter in the scenario itself does not matter, not even a senseless one.
+/// The value that the scenario has for a varied parameter does not matter, even where it is not valid.
 #[test]
 fn the_values_that_are_varied_replace_those_of_the_scenario() {
     let outcome = || Measurement::named("outcome").unwrap();
@@ -261,7 +261,7 @@ fn a_plan_in_json_says_what_is_wrong_with_it() {
 }
 
 #[test]
-fn a_summary_holds_what_the_runs_say() {
+fn a_summary_holds_the_statistics_of_the_runs() {
     let plan = small();
     let runs = all(&plan);
     let (table, summary) = (plan.table(&runs), plan.summary(&runs).unwrap());
@@ -281,7 +281,7 @@ fn a_summary_holds_what_the_runs_say() {
         sorted.sort_by(f64::total_cmp);
         assert!((of("mean") - mean).abs() < 1e-12 && (of("sd") - variance.sqrt()).abs() < 1e-12);
         assert_eq!(of("q50"), sorted[1]);
-        // t of two degrees of freedom.
+        // Student's t for two degrees of freedom.
         let half = 4.302_652_73 * (variance / 3.0).sqrt();
         assert!((of("ci95_high") - mean - half).abs() < 1e-7 * (1.0 + half));
         assert_eq!(summary.wholes("runs").unwrap()[k], 3);
@@ -293,9 +293,9 @@ fn a_summary_holds_what_the_runs_say() {
     }
 }
 
-/// Over time, every row of a summary is at a time of the measurement, and runs that have ended do not count.
+/// Each row of a summary over time is at a regular time of the measurement, and runs that have ended do not count.
 #[test]
-fn a_summary_over_time_counts_the_runs_that_go_on() {
+fn a_summary_over_time_counts_the_runs_that_have_not_ended() {
     for measurement in ["overview", "lanes", "drivers"] {
         let plan = plan(measurement, &["reaction-time=0,1.5"], 5);
         let runs = all(&plan);
@@ -320,7 +320,7 @@ fn a_summary_over_time_counts_the_runs_that_go_on() {
     }
 }
 
-/// The columns are known before anything has run, for every table that there is.
+/// The columns of every table are known before anything has run.
 #[test]
 fn every_measurement_has_the_columns_that_were_announced() {
     let scenario = Scenario { until: 2.0, ..scenario() };
@@ -342,7 +342,7 @@ fn every_measurement_has_the_columns_that_were_announced() {
     }
 }
 
-/// N equal drivers in equilibrium drive at v∞ without end: a uniform start gives the fundamental diagram.
+/// Homogeneous drivers that start in equilibrium stay there, so runs from a uniform start give the fundamental diagram.
 #[test]
 fn a_grid_over_density_is_the_fundamental_diagram() {
     let scenario = Scenario { until: 20.0, ..Scenario::default() };
@@ -360,7 +360,7 @@ fn a_grid_over_density_is_the_fundamental_diagram() {
 }
 
 #[test]
-fn it_can_be_cancelled_within_a_run_and_between_runs() {
+fn a_batch_can_be_cancelled_within_a_run_and_between_runs() {
     let plan = small();
     let numbers: Vec<u64> = (0..plan.runs()).collect();
     let total: u64 = numbers.iter().map(|&n| plan.work(n)).sum();
@@ -378,7 +378,7 @@ fn it_can_be_cancelled_within_a_run_and_between_runs() {
     );
     assert_eq!(went_on, Ok(false));
     assert!(finished < numbers.len());
-    // Not stopped, the work comes to what was announced, collisions or not.
+    // Without cancellation, the work reported adds up to the work announced, also where runs collide.
     done.store(0, Ordering::Relaxed);
     let count = |work| {
         done.fetch_add(work, Ordering::Relaxed);
@@ -386,11 +386,11 @@ fn it_can_be_cancelled_within_a_run_and_between_runs() {
     };
     run_all(&plan, &numbers, None, &count, &mut |_| Ok::<(), Error>(())).unwrap();
     assert_eq!(done.into_inner(), total);
-    // Within a run: one that would take a day.
+    // Cancelled within a run that would take a day.
     let long = Scenario { vehicles: 10_000, length: 1e6, until: 1e7, ..Scenario::default() };
     let long = Plan::new(long, vec![], 1, Measurement::named("outcome").unwrap()).unwrap();
     assert_eq!(long.run(0, &mut |_| false).unwrap(), None);
-    // A refusal by whoever takes the runs stops it, too.
+    // An error of the function that takes the runs stops the batch, too.
     let refusal = || Error::conflict("disk", "full", "room");
     assert_eq!(run_all(&plan, &numbers, Some(1), &|_| true, &mut |_| Err(refusal())), Err(refusal()));
 }

@@ -1,5 +1,5 @@
-//! `ringroad batch` as a process: threads, interruption, shards and merging give the same bytes, and what cannot be is
-//! refused with status 2 and a message.
+//! `ringroad batch` as a process: any number of threads, interruptions and merged shards give the same bytes, and what is not
+//! valid is refused with status 2 and a message.
 #![cfg(feature = "command")]
 
 use std::fs::{self, File, OpenOptions};
@@ -30,14 +30,14 @@ fn output(arguments: &[&str]) -> Output {
     ringroad(arguments).output().unwrap()
 }
 
-/// What it writes to the standard output.
+/// What the command writes to the standard output.
 fn written(arguments: &[&str]) -> String {
     let output = output(arguments);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// What it says when it refuses.
+/// The message of a command that is refused.
 fn refused(arguments: &[&str]) -> String {
     let output = output(arguments);
     assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stdout));
@@ -75,7 +75,7 @@ fn a_killed_batch_is_continued_and_ends_with_the_same_bytes() {
     let call = with(&SWEEP, &["--out", &out]);
     let lines = || fs::read_to_string(&part).map_or(0, |text| text.matches('\n').count());
 
-    // Killed once the header and three runs are there.
+    // Killed when the file holds the header and three runs.
     let mut child = ringroad(&call).stderr(Stdio::null()).spawn().unwrap();
     while lines() < 4 {
         assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
@@ -86,17 +86,17 @@ fn a_killed_batch_is_continued_and_ends_with_the_same_bytes() {
     let kept = lines() - 1;
     assert!((3..64).contains(&kept), "{kept}");
     assert!(!Path::new(&out).exists());
-    // Torn in the middle of a line.
+    // The last line is cut in the middle.
     let mut file = OpenOptions::new().append(true).open(&part).unwrap();
     file.write_all(b"[63,300.0,fal").unwrap();
     drop(file);
 
-    // Not by another plan, nor by a shard of it.
+    // Another plan does not continue it, nor does a shard of the plan.
     let other = refused(&with(&call, &["--seed", "5"]));
     assert!(other.contains(&part) && other.contains("seed is 1 and not 5"), "{other}");
     let other = refused(&with(&call, &["--shard", "1/2"]));
     assert!(other.contains("shard 1/1 and not 1/2"), "{other}");
-    // Nor while somebody else writes it.
+    // Nor does any batch while another process writes the file.
     let lock = File::open(&part).unwrap();
     lock.lock().unwrap();
     let busy = refused(&call);
@@ -109,7 +109,7 @@ fn a_killed_batch_is_continued_and_ends_with_the_same_bytes() {
     assert!(told.contains(&format!("{kept} of 64 runs")), "{told}");
     assert_eq!(fs::read_to_string(&out).unwrap(), expected);
     assert!(!Path::new(&part).exists());
-    // A header half written is as good as none; another file is left alone.
+    // An incomplete header is written again; a file of another kind is not touched.
     fs::write(&part, "{\"ringroad\":\"").unwrap();
     assert!(output(&call).status.success());
     assert_eq!(fs::read_to_string(&out).unwrap(), expected);
@@ -145,7 +145,7 @@ fn merged_shards_are_the_bytes_of_one_call() {
 }
 
 #[test]
-fn a_late_action_is_told_of_unless_the_end_is_varied() {
+fn an_action_after_the_end_gives_a_note_unless_the_end_is_varied() {
     let run = ["--until", "2", "--action", "at=3:1:brake=1"];
     let told = |more: &[&str]| String::from_utf8(output(&with(&run, more)).stderr).unwrap();
     assert_eq!(told(&["--runs", "2"]), "note: action at=3:1:brake=1 is after the end of the run at 2 s\n");
@@ -153,7 +153,7 @@ fn a_late_action_is_told_of_unless_the_end_is_varied() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_before_a_file_is_made() {
+fn invalid_options_are_refused_before_a_file_is_made() {
     let folder = folder("refused");
     let out = folder.join("table.csv").display().to_string();
     for (arguments, words) in [

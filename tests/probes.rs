@@ -1,4 +1,4 @@
-//! Each measurement held against what theory says that it must give.
+//! Each measurement, compared with the values that follow from theory or from a direct computation.
 
 mod common;
 
@@ -41,7 +41,7 @@ fn trajectories_have_a_row_for_each_vehicle_and_time() {
     assert_eq!(t.floats("time_s").unwrap(), [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0]);
     assert_eq!(t.wholes("vehicle").unwrap(), [1, 2, 3, 1, 2, 3, 1, 2, 3]);
     assert!(t.wholes("lane").unwrap().iter().all(|&l| l == 1));
-    // An undisturbed ring: v(L/N) for ever, distance v·t.
+    // On an undisturbed ring the speed is v(L/N) at all times, and the distance v·t.
     let v = Driver::default().speed(1000.0 / 3.0);
     assert!(t.floats("speed_m_per_s").unwrap().iter().all(|&s| (s - v).abs() < 1e-12));
     for (distance, time) in t.floats("distance_m").unwrap().iter().zip(t.floats("time_s").unwrap()) {
@@ -50,7 +50,7 @@ fn trajectories_have_a_row_for_each_vehicle_and_time() {
 }
 
 #[test]
-fn a_collision_gives_a_row_of_its_own_and_none_twice() {
+fn a_collision_gives_one_additional_row() {
     let scenario = with_actions(delayed(0.8, 600.0), &["at=0:1:nudge=1"]);
     let mut simulation = Simulation::new(&scenario).unwrap();
     simulation.run_to(u64::MAX);
@@ -82,7 +82,7 @@ fn wide_speeds_are_those_of_the_trajectories() {
     assert_eq!(wide.columns()[1].name, "v_7_m_per_s");
 }
 
-/// Every cell by a search over all vehicles: the nearest one upstream of its centre.
+/// Each cell is compared with the nearest vehicle upstream of its centre, found by a search over all vehicles.
 #[test]
 fn a_cell_of_the_speed_map_is_the_next_vehicle_upstream() {
     let scenario = with_actions(
@@ -118,7 +118,7 @@ fn a_cell_of_the_speed_map_is_the_next_vehicle_upstream() {
 }
 
 #[test]
-fn an_empty_lane_has_no_speed_and_a_lonely_vehicle_holds_all_of_its_own() {
+fn an_empty_lane_has_no_speed_and_a_single_vehicle_gives_its_speed_to_the_whole_lane() {
     let mut scenario =
         Scenario { vehicles: 1, lanes: 2, until: 0.0, start: Start::OneLane(2), ..Scenario::default() };
     scenario.driver.frustration_rate = 0.0;
@@ -130,7 +130,7 @@ fn an_empty_lane_has_no_speed_and_a_lonely_vehicle_holds_all_of_its_own() {
     assert_eq!(speeds(2), [Driver::default().speed(1000.0); 5]);
 }
 
-/// In equilibrium exactly q·δ vehicles pass a place in a window, up to the one that is just passing.
+/// In equilibrium q·δ vehicles pass a position in a window, up to the one that is passing at its end.
 #[test]
 fn the_flow_of_the_equilibrium_ring_is_q() {
     let scenario = Scenario { until: 120.0, ..Scenario::default() };
@@ -148,14 +148,15 @@ fn the_flow_of_the_equilibrium_ring_is_q() {
             }
         }
     }
-    // The mean over the ring of the map is q almost exactly: every vehicle drives v·δ of it.
+    // The mean of the map over the ring is q almost exactly, since every vehicle drives v·δ in a window.
     let map = table(&scenario, r#"{"table":"flow-map","every":20,"bins":1000,"window":20}"#);
     for row in map.floats("flow_veh_per_s").unwrap().chunks(1000).skip(1) {
         assert!((row.iter().sum::<f64>() / 1000.0 - q).abs() < 5e-3);
     }
 }
 
-/// Q(t, x) by its definition, from the trajectories: unwrapped positions and Heaviside functions for every lap.
+/// Q(t, x) is compared with its definition, computed from the trajectories: unwrapped positions, and a Heaviside function for
+/// each lap.
 #[test]
 fn every_cell_of_the_flow_map_counts_exactly() {
     let scenario = with_actions(
@@ -200,7 +201,7 @@ fn every_cell_of_the_flow_map_counts_exactly() {
             );
         }
     }
-    // One place alone gives the same as the map.
+    // The flow past one position is that of the map.
     let one = table(&scenario, &format!(r#"{{"table":"flow","window":4.5,"at":{}}}"#, places[11]));
     let column: Vec<_> = flows.iter().skip(11).step_by(bins).map(|f| f.to_bits()).collect();
     assert_eq!(one.floats("flow_veh_per_s").unwrap().iter().map(|f| f.to_bits()).collect::<Vec<_>>(), column);
@@ -217,7 +218,7 @@ fn equilibrium_has_the_values_of_the_model() {
     assert!((value("critical_density_veh_per_m") * 1000.0 - 34.0).abs() < 0.5);
     assert_eq!(value("density_veh_per_m"), 0.05);
 
-    // A change of lane changes two lanes; an action on all drivers every lane.
+    // A lane change changes two lanes; an action on all drivers changes every lane.
     let scenario = with_actions(
         Scenario { vehicles: 20, lanes: 2, time_step: 0.05, until: 5.0, ..Scenario::default() },
         &["at=3:all:max-speed=30"],
@@ -228,9 +229,9 @@ fn equilibrium_has_the_values_of_the_model() {
     assert_eq!(t.wholes("vehicles").unwrap(), [10, 10, 10, 10]);
 }
 
-/// c = n·dv∞/dL and the largest flow, for different drivers by differences and by search.
+/// For heterogeneous drivers c = n·dv∞/dL is compared with a difference quotient, and the largest flow with a search.
 #[test]
-fn different_drivers_share_an_equilibrium() {
+fn heterogeneous_drivers_have_one_equilibrium_speed() {
     let at = |length: f64| {
         let scenario = Scenario {
             length,
@@ -251,7 +252,7 @@ fn different_drivers_share_an_equilibrium() {
     assert!(flow(density * 1.02) < top && flow(density * 0.98) < top);
 }
 
-/// A nudge of ε puts −ε and +ε on two neighbouring headways: A_q = (2/N)·ε·|1 − e^{2πiq/N}|.
+/// A nudge of ε changes two neighbouring headways by −ε and +ε: A_q = (2/N)·ε·|1 − e^{2πiq/N}|.
 #[test]
 fn modes_have_the_amplitudes_of_a_nudge() {
     let scenario = with_actions(Scenario { until: 0.0, ..Scenario::default() }, &["at=0:1:nudge=0.5"]);
@@ -268,7 +269,7 @@ fn modes_have_the_amplitudes_of_a_nudge() {
     assert!(quiet.floats("largest_deviation_m").unwrap().iter().all(|&x| x < 1e-14));
 }
 
-/// σ_q of z^{m+1} = z^m + dt·d_q, growing and decaying, mode by mode: within 1 % or three standard errors.
+/// The growth rate of each mode, growing or decaying, is that of z^{m+1} = z^m + dt·d_q within 1 % or three standard errors.
 #[test]
 fn growth_rates_are_those_of_the_difference_equation() {
     for k in 0..=16 {
@@ -305,7 +306,7 @@ fn a_disturbed_lane_ends_the_linear_window() {
         let t = table(&disturbed, r#"{"table":"growth","modes":1}"#);
         assert_eq!((t.floats("to_s").unwrap()[0], ends(&t).as_str()), (29.5, "disturbed"), "{action}");
     }
-    // Hard by the jam a nudge that is small in itself makes somebody stand, where the law has a kink.
+    // Close to the density of a jam even a small nudge makes a vehicle stand, where the speed law has a kink.
     let dense = Scenario { vehicles: 133, ..delayed(0.0, 60.0) };
     for (nudge, stands) in [("0.01", false), ("0.1", true)] {
         let t = table(
@@ -319,9 +320,9 @@ fn a_disturbed_lane_ends_the_linear_window() {
     assert_eq!(ends(&table(&large, r#"{"table":"growth"}"#)), "never in the linear regime");
 }
 
-/// The periods and depths found by a plain reading of the speeds at every step.
+/// Periods and depths are compared with those found directly in the speeds at every step.
 #[test]
-fn cyclic_growth_is_that_of_the_speeds() {
+fn cyclic_growth_agrees_with_the_speeds_at_every_step() {
     let scenario = with_actions(delayed(0.5, 400.0), &["at=0:1:nudge=1"]);
     let t = table(&scenario, r#"{"table":"cyclic-growth","vehicle":11,"periods":4}"#);
     let speeds = table(&scenario, r#"{"table":"speeds","every":0.01,"vehicles":[11]}"#);
@@ -377,8 +378,8 @@ fn lanes_and_drivers_add_up() {
     assert_eq!(groups[..2], ["sensitivity=2", "default"]);
 }
 
-/// A table taken in mid-run, after actions made by hand, is to the last byte the one of a run that ends there. Only
-/// the outcome has to wait for the end.
+/// A table taken in mid-run, after actions made by hand, has the same bytes as that of a run that ends there. Only the
+/// table `outcome` has no row before the end.
 #[test]
 fn a_table_in_mid_run_is_that_of_a_run_until_then() {
     let scenario = with_actions(
@@ -421,7 +422,7 @@ fn a_table_in_mid_run_is_that_of_a_run_until_then() {
 }
 
 #[test]
-fn an_outcome_is_there_when_the_run_has_ended() {
+fn an_outcome_has_its_row_when_the_run_has_ended() {
     let scenario = Scenario { until: 3.0, ..Scenario::default() };
     let mut probe = Measurement::Outcome {}.probe(&scenario).unwrap();
     let mut simulation = Simulation::new(&scenario).unwrap();
@@ -432,12 +433,12 @@ fn an_outcome_is_there_when_the_run_has_ended() {
     }
     probe.observe(&simulation);
     assert_eq!(probe.table().floats("end_time_s").unwrap(), [3.0]);
-    // A uniform ring keeps the speed of its equilibrium.
+    // On a uniform ring the speed stays that of the equilibrium.
     let speed = scenario.driver.speed(20.0);
     assert!((probe.table().floats("mean_speed_m_per_s").unwrap()[0] - speed).abs() < 1e-12);
 }
 
-/// The means of an overview are over the time between its rows: together they are those of the outcome.
+/// The means in an overview are over the time between its rows, so their mean over the run is that of the outcome.
 #[test]
 fn an_overview_adds_up_to_the_outcome() {
     let scenario =

@@ -1,4 +1,4 @@
-//! A session, with all that was done by hand on the way, is replayed to the last bit from its scenario.
+//! A session with actions made by hand is replayed to the last bit from its scenario.
 #![cfg(not(target_arch = "wasm32"))]
 
 use proptest::prelude::*;
@@ -9,7 +9,7 @@ use ringroad::scenario::Scenario;
 use ringroad::scenario::action::Action;
 use ringroad::simulation::Simulation;
 
-/// Something that a person can do, to one or several of `vehicles`.
+/// The text of an action on one or several of `vehicles`.
 fn effect(vehicles: usize) -> impl Strategy<Value = String> {
     let who = prop_oneof![
         Just("all".to_owned()),
@@ -30,7 +30,7 @@ fn effect(vehicles: usize) -> impl Strategy<Value = String> {
     (who, prop::collection::vec(what, 1..3)).prop_map(|(who, what)| format!("{who}:{}", what.join(",")))
 }
 
-/// A valid scenario and things done by hand: (step, what).
+/// A valid scenario and actions made by hand: (step, text).
 fn session() -> impl Strategy<Value = (Scenario, Vec<(u64, String)>)> {
     (1..=4usize, 1..=40usize, 0..4usize, prop::sample::select(vec![0.01, 0.05, 0.1, 0.3]), 0..1000u64)
         .prop_flat_map(|(lanes, vehicles, start, time_step, seed)| {

@@ -13,8 +13,8 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | [`plan`] | which runs there are |
-//! | [`run`] | computing runs, one or all |
+//! | `plan` | which runs there are |
+//! | `run` | computing runs, one or all |
 //! | `rows` | a table of all runs |
 //! | `summary` | statistics over the runs of each cell |
 //! | [`record`] | finished runs as text: to continue a batch, and to merge shards |
@@ -43,13 +43,13 @@
 //! # Ok::<(), Error>(())
 //! ```
 
-pub mod plan;
+mod plan;
 pub mod record;
 mod rows;
-pub mod run;
+mod run;
 mod summary;
 
 pub use crate::scenario::parameter_values::ParameterValues;
-pub use plan::Plan;
+pub use plan::{MOST_RUNS, Plan};
 pub use record::{Header, Shard};
 pub use run::{Run, run_all};

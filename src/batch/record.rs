@@ -4,6 +4,22 @@
 //! The first line is a [`Header`] in JSON with the whole plan. Then each run is one line,
 //! `[number, end, collided, [[…], …]]` with a list for each column, NaN being `null`. Numbers read back to the same bits.
 //! A line counts only when it ends with a line feed, so that a line that was not written completely is ignored.
+//!
+//! ```
+//! use ringroad::batch::record::{self, Record};
+//! use ringroad::batch::{Header, Plan, Shard};
+//! use ringroad::measurement::Measurement;
+//! use ringroad::scenario::Scenario;
+//!
+//! let scenario = Scenario { until: 1.0, ..Scenario::default() };
+//! let plan = Plan::new(scenario, Vec::new(), 2, Measurement::named("outcome")?)?;
+//! let run = plan.run(0, &mut |_| true)?.unwrap();
+//! let text = Header::new(plan, Shard::default(), false).line() + &record::line(&run);
+//!
+//! let read = Record::read(&text)?;
+//! assert_eq!(read.runs[&0], run);
+//! # Ok::<(), ringroad::error::Error>(())
+//! ```
 
 use super::plan::Plan;
 use super::run::Run;

@@ -23,6 +23,29 @@
 //! is the rate measured, except for modes that fade much faster than others and are hidden by them. Where a
 //! class drives in a block, a Fourier mode is a mixture of several exponentials: its standard error is large, and its
 //! slope tends to the fastest growth rate.
+//!
+//! ```
+//! use ringroad::measurement::modal_growth::{Linear, ModalGrowth, WindowEnd};
+//! use ringroad::measurement::Probe;
+//! use ringroad::scenario::Scenario;
+//! use ringroad::simulation::Simulation;
+//!
+//! let mut scenario = Scenario { until: 100.0, ..Scenario::default() };
+//! scenario.driver.reaction_time = 0.75;
+//! scenario.actions.push("at=0:1:nudge=0.01".parse()?);
+//! let linear = Linear { smallest: 1e-8, nonlinearity: 0.01 };
+//! // Amplitudes of modes 1 to 5 of lane 0 every 50 steps, from step 1500 on.
+//! let mut growth = ModalGrowth::new(50, 5, 0, 1500, linear);
+//! let mut simulation = Simulation::new(&scenario)?;
+//! while !simulation.is_finished() {
+//!     simulation.step();
+//!     growth.observe(&simulation);
+//! }
+//! let mode = &growth.modes()[4];
+//! assert!((mode.rate - mode.predicted).abs() < 0.01 * mode.predicted);
+//! assert_eq!(mode.ended_by, WindowEnd::EndOfRun);
+//! # Ok::<(), ringroad::error::Error>(())
+//! ```
 
 use super::due_rows::DueRows;
 use super::probe::Probe;
@@ -326,5 +349,25 @@ impl Probe for ModalGrowth {
                 modes.iter().map(|m| m.ended_by.text().to_owned()).collect(),
             ),
         ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The page gets the names, the table the texts.
+    #[test]
+    fn every_window_end_has_a_name_and_a_text() {
+        for (end, name, text) in [
+            (WindowEnd::EndOfRun, "end_of_run", "end of the run"),
+            (WindowEnd::LeftLinearRegime, "left_linear_regime", "left the linear regime"),
+            (WindowEnd::SankIntoRounding, "sank_into_rounding", "sank into rounding"),
+            (WindowEnd::Disturbed, "disturbed", "disturbed"),
+            (WindowEnd::NeverLinear, "never_linear", "never in the linear regime"),
+        ] {
+            assert_eq!(serde_json::to_value(end).unwrap(), name);
+            assert_eq!(end.text(), text);
+        }
     }
 }
