@@ -30,12 +30,7 @@ impl Probe for SmallestHeadway {
         let rows = || self.rows.values();
         Table::new(vec![
             Column::float("time_s", "s", "time", rows().map(|row| row.0).collect()),
-            Column::whole(
-                "vehicle",
-                "",
-                "number of the vehicle, from 1",
-                rows().map(|row| row.1 as u64).collect(),
-            ),
+            Column::whole("vehicle", "", "its number, from 1", rows().map(|row| row.1 as u64).collect()),
             Column::float("headway_m", "m", "smallest headway", rows().map(|row| row.2).collect()),
         ])
     }
