@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest'
-import { Pace } from '../src/app/playback'
+import { Pace } from '../src/app/pace'
 
 test('as many steps as time passes, and no time is lost to rounding', () => {
   const pace = new Pace()

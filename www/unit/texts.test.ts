@@ -4,7 +4,7 @@ import { exactly, fixed, span } from '../src/text/format'
 import type { Verdict } from '../src/core/protocol'
 import { en } from '../src/text/en'
 import { inWords } from '../src/views/actions'
-import { shown } from '../src/views/controls'
+import { written } from '../src/app/parameters'
 import { roundSteps } from '../src/charts/axes'
 
 test('numbers have as many digits as mean something', () => {
@@ -24,10 +24,10 @@ test('actions are told in words', () => {
 })
 
 test('a number field shows what the slider can set, and more digits only where they are', () => {
-  const parameter = { slider: { min: 0, max: 1.5, step: 0.01 } } as Parameters<typeof shown>[0]
-  expect(shown(parameter, 0.75)).toBe('0.75')
-  expect(shown(parameter, 0.1 + 0.2)).toBe('0.30000000000000004')
-  expect(shown(parameter, 0.12345)).toBe('0.12345')
+  const parameter = { slider: { min: 0, max: 1.5, step: 0.01 } } as Parameters<typeof written>[0]
+  expect(written(parameter, 0.75)).toBe('0.75')
+  expect(written(parameter, 0.1 + 0.2)).toBe('0.30000000000000004')
+  expect(written(parameter, 0.12345)).toBe('0.12345')
 })
 
 test('axes have round numbers', () => {
@@ -60,21 +60,21 @@ const verdict: Verdict = {
 const plain = (s: string) => s.replaceAll('\u202f', ' ')
 
 test('the verdict is a sentence with both thresholds', () => {
-  expect(plain(en.verdict.critical(verdict))).toBe('Drivers react after 0.75 s; this ring tolerates 0.679 s (τ = 0.684 s).')
-  expect(plain(en.verdict.wave(verdict))).toBe('Its fastest wave, 8 jams, doubles every 43 s.')
-  expect(plain(en.verdict.wave({ ...verdict, stable: true, rate: -Math.LN2 / 20, mode: 1 }))).toContain('1 jam, halves every 20 s')
-  expect(en.verdict.critical({ ...verdict, stable: null })).toContain('No wave')
-  expect(plain(en.verdict.critical({ ...verdict, critical_discrete: 0 }))).toContain('no delay')
+  expect(plain(en.summary.critical(verdict))).toBe('Drivers react after 0.75 s; this ring tolerates 0.679 s (τ = 0.684 s).')
+  expect(plain(en.summary.wave(verdict))).toBe('Its fastest wave, 8 jams, doubles every 43 s.')
+  expect(plain(en.summary.wave({ ...verdict, stable: true, rate: -Math.LN2 / 20, mode: 1 }))).toContain('1 jam, halves every 20 s')
+  expect(en.summary.critical({ ...verdict, stable: null })).toContain('No wave')
+  expect(plain(en.summary.critical({ ...verdict, critical_discrete: 0 }))).toContain('no delay')
 })
 
 test('what is measured says its window, and does not pretend', () => {
   const growth = { rate: 0.016, standard_error: 0.0001, nonlinear_bound: 0.0004, window: 60, mode: 8 }
-  expect(plain(en.verdict.measured(growth, false))).toBe('measured: doubles every 43 s')
-  expect(plain(en.verdict.measured({ ...growth, window: 20 }, false))).toContain('20 s')
-  expect(en.verdict.measured({ ...growth, standard_error: 0.02 }, false)).toContain('neither')
-  expect(en.verdict.measured(growth, true)).toContain('now large waves')
-  expect(plain(en.verdict.measured({ ...growth, nonlinear_bound: 0.004 }, false))).toBe('measured: doubles every 34–59 s')
-  expect(plain(en.verdict.measured({ ...growth, rate: -0.005, nonlinear_bound: 0.002 }, false))).toBe('measured: halves every 96 s–4 min')
-  expect(en.verdict.measured({ ...growth, nonlinear_bound: 0.01, standard_error: 0.004 }, false)).toContain('not clear yet')
-  expect(en.verdict.measured({ ...growth, nonlinear_bound: 0.02 }, false)).toContain('too large to tell')
+  expect(plain(en.summary.measured(growth, false))).toBe('measured: doubles every 43 s')
+  expect(plain(en.summary.measured({ ...growth, window: 20 }, false))).toContain('20 s')
+  expect(en.summary.measured({ ...growth, standard_error: 0.02 }, false)).toContain('neither')
+  expect(en.summary.measured(growth, true)).toContain('now large waves')
+  expect(plain(en.summary.measured({ ...growth, nonlinear_bound: 0.004 }, false))).toBe('measured: doubles every 34–59 s')
+  expect(plain(en.summary.measured({ ...growth, rate: -0.005, nonlinear_bound: 0.002 }, false))).toBe('measured: halves every 96 s–4 min')
+  expect(en.summary.measured({ ...growth, nonlinear_bound: 0.01, standard_error: 0.004 }, false)).toContain('not clear yet')
+  expect(en.summary.measured({ ...growth, nonlinear_bound: 0.02 }, false)).toContain('too large to tell')
 })

@@ -1,19 +1,20 @@
-// Every text that a person reads on the page. The core's refusals come as they are; a second language is a
-// second object of this type.
+// Every text of the page, in English; a second language is a second object of this type. The core's refusals are shown in the
+// core's own words.
 import { exactly, fixed, span, unit } from './format'
 import type { Growth, Verdict } from '../core/protocol'
 
 const seconds = (s: number) => unit(fixed(s, 3), 's')
-/** A critical reaction time; none where every one is stable. */
+/** A critical reaction time (s); null: every reaction time is stable. */
 const tau = (s: number | null) => (s === null ? '–' : s >= 1000 ? unit('over 1000', 's') : unit(exactly(s, s < 10 ? 3 : s < 100 ? 1 : 0), 's'))
 /** Two significant digits. */
 const short = (x: number) => String(Number(x.toPrecision(2)))
 const jams = (n: number) => (n === 1 ? '1 jam' : `${n} jams`)
-const pace = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
-/** The same as a range, unless it is known to a twentieth: what the waves' size may have done, and the scatter. */
+const growth = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
+/** The same as a range, unless the error is below a twentieth of the rate: the error is the bound on what is not linear and two
+ * standard errors. */
 function within({ rate, nonlinear_bound, standard_error }: Growth): string {
   const error = nonlinear_bound + 2 * standard_error
-  if (error < 0.05 * Math.abs(rate)) return pace(rate)
+  if (error < 0.05 * Math.abs(rate)) return growth(rate)
   if (nonlinear_bound >= Math.abs(rate)) return 'waves too large to tell'
   if (error >= Math.abs(rate)) return 'not clear yet'
   const [fast, slow] = [error, -error].map(e => span(Math.LN2 / (Math.abs(rate) + e)))
@@ -45,13 +46,13 @@ export const en = {
     close: 'Close',
   },
 
-  trouble: {
+  problem: {
     title: 'That did not work',
     over: 'The run ended in a collision: go back first.',
     dismiss: 'Dismiss',
   },
 
-  verdict: {
+  summary: {
     stable: 'Stable',
     unstable: 'Unstable',
     open: 'No wave',
@@ -73,8 +74,8 @@ export const en = {
     wave: (v: Verdict): string => {
       if (v.stable === null || v.rate === null || v.mode === null || v.rate === 0) return ''
       return v.stable
-        ? `Its slowest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
-        : `Its fastest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
+        ? `Its slowest wave, ${jams(v.mode)}, ${growth(v.rate)}.`
+        : `Its fastest wave, ${jams(v.mode)}, ${growth(v.rate)}.`
     },
     lane: (lane: number): string => `Lane ${lane}:`,
     measured: (g: Growth, large: boolean): string => {
@@ -119,11 +120,11 @@ export const en = {
     note: { difference: 'speed against v∞, log scale', speed: 'speed' },
     canvas: 'Space-time map: position upwards, time to the right.',
     position: 'position (m)',
-    riding: 'position, riding along (m)',
+    coMovingPosition: 'position, riding along (m)',
     time: 'time (s)',
     lane: 'Lane',
-    ride: 'Ride along',
-    rideHint: 'Move with the equilibrium speed v∞',
+    coMoving: 'Ride along',
+    coMovingHint: 'Move with the equilibrium speed v∞',
     reading: (t: number, x: number, v: number, d: number): string =>
       `t = ${unit(exactly(t, 1), 's')}, x = ${unit(fixed(x, 0), 'm')}: ${unit(exactly(v, 2), 'm/s')} (${d >= 0 ? '+' : ''}${exactly(d, Math.abs(d) < 0.1 ? 3 : 2)})`,
   },
@@ -231,7 +232,8 @@ export const en = {
     clear: 'Restart without them',
     clearHint: 'Keeps what belongs to t = 0',
     at: (t: string): string => `${t} s`,
-    vehicle: (who: string): string => (who === 'all' ? 'all cars' : /^\d+$/.test(who) ? `car ${who}` : who.endsWith('%') ? `${who} of the cars` : `cars ${who}`),
+    vehicles: (selector: string): string =>
+      selector === 'all' ? 'all cars' : /^\d+$/.test(selector) ? `car ${selector}` : selector.endsWith('%') ? `${selector} of the cars` : `cars ${selector}`,
     brake: (s: string): string => `brake for ${s} s`,
     nudge: (m: string): string => `nudge by ${m} m`,
     add: 'Add',
@@ -299,20 +301,20 @@ export const en = {
   live: {
     state: (t: number, mean: number, slowest: number, fastest: number): string =>
       `${fixed(t, 0)} seconds. Mean speed ${exactly(mean, 1)} metres per second, from ${exactly(slowest, 1)} to ${exactly(fastest, 1)}.`,
-    jams: (slow: number): string =>
-      slow === 0 ? 'Nobody stands.' : slow === 1 ? 'One car stands.' : `${slow} cars stand.`,
+    standing: (count: number): string =>
+      count === 0 ? 'Nobody stands.' : count === 1 ? 'One car stands.' : `${count} cars stand.`,
     playing: 'Playing.',
     paused: 'Paused.',
   },
 
-  plane: {
+  diagram: {
     title: 'Where waves grow',
     stable: 'stable',
     unstable: 'unstable',
     jam: 'jam',
-    /** The lane where there are several, else null. */
+    /** `lane`: its number where there are several, else null. */
     vehicles: (lane: number | null): string => (lane === null ? 'vehicles N' : `vehicles in lane ${lane}`),
-    /** Where a colour bar stands beside it. */
+    /** Shorter, for beside the colour bar. */
     vehiclesShort: (lane: number | null): string => (lane === null ? 'vehicles N' : `N in lane ${lane}`),
     reaction: 'reaction time Δ (s)',
     handle: 'Vehicles and reaction time',
@@ -323,17 +325,17 @@ export const en = {
     value: (n: number, lane: number | null, delta: number, state: string): string =>
       `${n} vehicles${lane === null ? '' : ` in lane ${lane}`}, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
     drag: 'drag the point',
-    /** A curve and its value at the point's N. */
+    /** The curves, each with its value at the point's N (s). */
     discrete: (s: number | null): string => `τ in steps: ${tau(s)}`,
     continuous: (s: number | null): string => `τ continuous: ${tau(s)}`,
     newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
     describe: (n: number, lane: number | null, discrete: number | null, continuous: number | null, newell: number | null): string =>
       `The plane of vehicles${lane === null ? '' : ` in lane ${lane}`} and reaction time. ${discrete === null && continuous === null ? `With ${n} vehicles nothing moves: a jam.` : `With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`}`,
-    /** Where drivers differ. */
+    /** For heterogeneous drivers. */
     titleAlike: 'If drivers were alike',
     alike: 'The drivers of this ring differ. The plane is for drivers alike: those without an exception.',
-    ground: 'What the plane shows',
-    grounds: { regions: 'regions', steps: 'in steps', continuous: 'continuous' },
+    shading: 'What the plane shows',
+    shadings: { regions: 'regions', steps: 'in steps', continuous: 'continuous' },
     rates: 'growth rate',
     every: 'modes',
     everyHint: 'The critical reaction time of every single mode: of the run’s steps, or of continuous time with its growth rate',

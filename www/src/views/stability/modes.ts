@@ -1,4 +1,4 @@
-// Growth of each mode as the run shows it, beside what theory says.
+// Growth rate of each mode as measured in the run, and as theory predicts it.
 import { drawing, el, style } from '../../ui/dom'
 import type { ModesGrowth, Roots } from '../../core/protocol'
 import { text } from '../../text'
@@ -6,7 +6,7 @@ import { axes, frame, room, roundSteps, say, ticks, word } from '../../charts/ax
 
 const t = text.modes
 
-/** What the run has to say of the mode that theory calls the fastest. */
+/** A sentence on the measurement of the mode that grows fastest in theory. */
 function status(measured: ModesGrowth, alike: boolean, fastest: number | null, time: number, lanes: number): string {
   if (fastest === null) return ''
   if (measured.modes.length === 0 && time >= measured.starts) return lanes > 1 ? t.changing : t.nothing
@@ -16,7 +16,7 @@ function status(measured: ModesGrowth, alike: boolean, fastest: number | null, t
     if (time < measured.starts) return t.waiting(measured.starts)
     return lead.ended_by === 'sank into rounding' ? t.quiet : t.large
   }
-  // What the waves' size may have done, and the scatter.
+  // What the waves' size may have changed, and two standard errors.
   const error = lead.nonlinear_bound === null || lead.standard_error === null ? null : lead.nonlinear_bound + 2 * lead.standard_error
   const ended = { 'end of the run': t.linear(lead.from, error), 'left the linear regime': t.left(lead.to, error), disturbed: t.disturbed(lead.to), 'sank into rounding': t.faded(lead.to) }[lead.ended_by]
   return [ended ?? '', alike ? '' : t.differ].join(' ').trim()
@@ -42,7 +42,7 @@ export function modesView() {
       say(c, t.none, w, h)
       return
     }
-    // As many as the core would look at.
+    // As many modes as the core measures when it measures.
     const count = measured.modes.length || Math.min(Math.max(...theory.modes), Math.min(40, Math.max(10, 2 * leader)))
     const predicted = theory.modes.flatMap((mode, k) => {
       const rate = theory!.growth_per_s[k]

@@ -1,12 +1,12 @@
-// The characteristic roots in the complex plane. A mode grows where its root lies right of the imaginary axis. Both
-// axes are logarithmic away from 0, so that a root just across the axis can be told from one on it.
+// The characteristic roots in the complex plane. A mode grows if its root lies right of the imaginary axis. Both axes are
+// logarithmic away from 0, so that a root close to the imaginary axis differs visibly from one on it.
 import { drawing, el, style } from '../../ui/dom'
 import type { Roots } from '../../core/protocol'
 import { text } from '../../text'
 import { axes, frame, say, ticks, word } from '../../charts/axes'
 
 const t = text.roots
-/** Where the logarithm begins, 1/s. */
+/** Below these values the axes are about linear, above them logarithmic, 1/s. */
 const REAL = 0.01
 const IMAGINARY = 0.1
 
@@ -42,7 +42,7 @@ export function rootsView() {
       return
     }
     const low = log(Math.min(-0.1, ...all.map(r => r.re)) * 1.5, REAL)
-    // Room for the word beside the axis.
+    // Leaves space for the word beside the axis.
     const high = log(Math.max(0.1, ...all.map(r => r.re)) * 3, REAL)
     const top = log(Math.max(1, ...all.map(r => r.im)) * 1.4, IMAGINARY)
     const x = (re: number) => f.left + ((f.right - f.left) * (log(re, REAL) - low)) / (high - low)
@@ -72,7 +72,7 @@ export function rootsView() {
     for (const root of leading) {
       const [px, py] = [x(root.re), y(root.im)]
       c.beginPath()
-      // What grows differs in shape, not in colour alone.
+      // Growing modes differ in shape, not in colour alone.
       if (root.re > 0) {
         c.moveTo(px, py - 5)
         c.lineTo(px + 4.5, py + 3.5)

@@ -1,13 +1,13 @@
-// The verdict: what theory says of this ring, and what the run has shown so far. During a slider's movement it
-// speaks of what would be.
+// The stability summary: what theory says of this ring, and the growth that the run has shown so far. While a control is moved,
+// it is about the value that the control would set.
 import { el } from '../ui/dom'
 import type { Session } from '../app/session'
 import type { Verdict } from '../core/protocol'
 import { text } from '../text'
 
-const t = text.verdict
+const t = text.summary
 
-export function verdictView(session: Session): { element: HTMLElement; preview: (v: Verdict | null) => void } {
+export function summaryView(session: Session): { element: HTMLElement; preview: (summary: Verdict | null) => void } {
   const mark = el('strong')
   const sentence = el('span', { class: 'sentence' })
   const measured = el('span', { class: 'measured' })

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest'
-import { before, most, trace } from '../src/charts/line_chart'
+import { before, most, trace } from '../src/charts/trace'
 
 /** What is drawn: lines, each a list of points. */
 function drawn(time: readonly number[], values: readonly (number | null)[], first = 0, scale = 10): [number, number][][] {
