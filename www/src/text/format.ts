@@ -13,14 +13,6 @@ export const decimals = (step: number): number => Math.max(0, Math.min(6, Math.c
 /** Always so many decimals. */
 export const exactly = (value: number, decimals: number): string => value.toFixed(decimals).replace('-', '\u2212')
 
-/** So many significant digits, without trailing zeros; very large and very small ones with a power of ten. */
-export function significant(value: number, digits: number): string {
-  const text = value.toPrecision(digits)
-  if (!text.includes('e')) return fixed(Number(text), Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value) || 1))))
-  const [mantissa, power] = text.split('e')
-  return `${fixed(Number(mantissa), digits)}e${Number(power)}`.replace('e-', 'e\u2212')
-}
-
 /** A number and its unit, with a narrow no-break space between them. */
 export const unit = (value: string, of: string): string => (of === '' ? value : `${value}\u202f${of}`)
 

@@ -1,5 +1,5 @@
 // Several views in one place, one at a time.
-import { el } from './dom'
+import { button, el } from './dom'
 import { text } from '../text'
 
 export function tabs(views: readonly { id: string; name: string; panel: HTMLElement }[]): HTMLElement {
@@ -8,7 +8,7 @@ export function tabs(views: readonly { id: string; name: string; panel: HTMLElem
     panel.setAttribute('role', 'tabpanel')
     panel.setAttribute('aria-labelledby', `tab-${id}`)
     panel.tabIndex = 0
-    return el('button', { type: 'button', role: 'tab', id: `tab-${id}`, 'aria-controls': `panel-${id}`, onclick: () => choose(id) }, name)
+    return button({ role: 'tab', id: `tab-${id}`, 'aria-controls': `panel-${id}`, onclick: () => choose(id) }, name)
   })
   const choose = (id: string) => {
     views.forEach((view, k) => {

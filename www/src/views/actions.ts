@@ -1,5 +1,5 @@
 // The list of actions in words, each with a button that takes it back, and a field for another one.
-import { el } from '../ui/dom'
+import { button, el } from '../ui/dom'
 import { unit } from '../text/format'
 import type { Session } from '../app/session'
 import type { Parameter } from '../core/protocol'
@@ -23,7 +23,7 @@ export function inWords(action: string, parameters: readonly Pick<Parameter, 'na
 export function actionsView(session: Session): HTMLElement {
   const list = el('ul', { class: 'actions' })
   const none = el('p', {}, t.none)
-  const clear = el('button', { type: 'button', id: 'clear', title: t.clearHint, onclick: () => void session.restart(false) }, t.clear)
+  const clear = button({ id: 'clear', title: t.clearHint, onclick: () => void session.restart(false) }, t.clear)
   const input = el('input', { type: 'text', id: 'do', placeholder: '7:brake=3', 'aria-label': t.addLabel, style: 'flex:1;width:auto' })
   const form = el(
     'form',
@@ -51,7 +51,7 @@ export function actionsView(session: Session): HTMLElement {
           {},
           el('span', { class: 'when' }, when),
           el('span', {}, what),
-          el('button', { type: 'button', 'aria-label': t.remove(`${when}, ${what}`), onclick: () => void session.remove(index) }, '✕'),
+          button({ 'aria-label': t.remove(`${when}, ${what}`), onclick: () => void session.remove(index) }, '✕'),
         )
       }),
     )

@@ -1,5 +1,5 @@
 // The head of the page: its name, the list of presets, and the buttons that open the dialogs and the figures.
-import { el } from '../ui/dom'
+import { button, el } from '../ui/dom'
 import type { Session } from '../app/session'
 import { text } from '../text'
 
@@ -22,7 +22,7 @@ function fullScreenIcon(): SVGElement {
 
 export function headerView(session: Session, dialogs: { share: HTMLDialogElement; files: HTMLDialogElement; help: HTMLDialogElement; figures: HTMLElement }): { element: HTMLElement; note: HTMLElement } {
   const words = el('p')
-  const note = el('div', { id: 'preset', role: 'status', hidden: true }, words, el('button', { type: 'button', 'aria-label': t.close, onclick: () => (note.hidden = true) }, '✕'))
+  const note = el('div', { id: 'preset', role: 'status', hidden: true }, words, button({ 'aria-label': t.close, onclick: () => (note.hidden = true) }, '✕'))
   const presets = el(
     'select',
     {
@@ -61,11 +61,11 @@ export function headerView(session: Session, dialogs: { share: HTMLDialogElement
     el('h1', {}, text.title),
     el('span', { class: 'subtitle' }, text.subtitle),
     presets,
-    el('button', { type: 'button', id: 'open-share', onclick: opener(dialogs.share) }, t.share),
-    el('button', { type: 'button', id: 'open-files', onclick: opener(dialogs.files) }, t.files),
+    button({ id: 'open-share', onclick: opener(dialogs.share) }, t.share),
+    button({ id: 'open-files', onclick: opener(dialogs.files) }, t.files),
     dialogs.figures,
-    document.fullscreenEnabled ? el('button', { type: 'button', class: 'wide-only', 'aria-label': t.fullscreen, title: t.fullscreen, onclick: full }, fullScreenIcon()) : null,
-    el('button', { type: 'button', id: 'open-help', 'aria-label': t.help, onclick: opener(dialogs.help) }, '?'),
+    document.fullscreenEnabled ? button({ class: 'wide-only', 'aria-label': t.fullscreen, title: t.fullscreen, onclick: full }, fullScreenIcon()) : null,
+    button({ id: 'open-help', 'aria-label': t.help, onclick: opener(dialogs.help) }, '?'),
   )
   return { element, note }
 }

@@ -1,5 +1,5 @@
 // Problems in sentences: what was refused, and why.
-import { el } from '../ui/dom'
+import { button, el } from '../ui/dom'
 import type { Session } from '../app/session'
 import { text } from '../text'
 
@@ -9,7 +9,7 @@ export function problemView(session: Session): HTMLElement {
     'div',
     { id: 'trouble', role: 'alert', hidden: true },
     el('div', {}, el('strong', {}, text.problem.title), list),
-    el('button', { type: 'button', 'aria-label': text.problem.dismiss, onclick: () => (element.hidden = true) }, '✕'),
+    button({ 'aria-label': text.problem.dismiss, onclick: () => (element.hidden = true) }, '✕'),
   )
   session.on('problem', messages => {
     element.hidden = messages.length === 0

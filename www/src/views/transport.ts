@@ -1,5 +1,5 @@
 // Playback: play, pause, step and restart; how fast; the time line with marks for the actions.
-import { el } from '../ui/dom'
+import { button, el } from '../ui/dom'
 import { fixed } from '../text/format'
 import { FACTORS } from '../app/playback'
 import type { Session } from '../app/session'
@@ -8,9 +8,9 @@ import { text } from '../text'
 const t = text.transport
 
 export function transportView(session: Session): HTMLElement {
-  const play = el('button', { type: 'button', class: 'main', id: 'play', onclick: () => session.playback.toggle() }, t.play)
-  const step = el('button', { type: 'button', id: 'step', onclick: () => void session.playback.step() }, t.step)
-  const restart = el('button', { type: 'button', id: 'restart', onclick: () => void session.restart(true) }, t.restart)
+  const play = button({ class: 'main', id: 'play', onclick: () => session.playback.toggle() }, t.play)
+  const step = button({ id: 'step', onclick: () => void session.playback.step() }, t.step)
+  const restart = button({ id: 'restart', onclick: () => void session.restart(true) }, t.restart)
   const factor = el(
     'select',
     { id: 'playback', 'aria-label': t.playback, onchange: () => session.playback.setFactor(Number(factor.value)) },

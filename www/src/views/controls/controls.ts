@@ -4,8 +4,8 @@ import { brakeWatched, nudgeWatched } from '../../app/commands'
 import type { Session } from '../../app/session'
 import type { Parameter, Verdict } from '../../core/protocol'
 import { text } from '../../text'
-import { card, el } from '../../ui/dom'
-import { ParameterControl } from './parameter'
+import { button, card, el } from '../../ui/dom'
+import { parameterControl } from './parameter'
 
 const t = text.controls
 /** Parameters that are always visible; the others appear with “More”. */
@@ -26,8 +26,8 @@ function startControl(session: Session): HTMLElement {
 
 /** The buttons that nudge and brake the watched vehicle. */
 function watchedButtons(session: Session): HTMLButtonElement[] {
-  const nudge = el('button', { type: 'button', id: 'nudge', title: t.nudgeHint, onclick: () => void nudgeWatched(session) })
-  const brake = el('button', { type: 'button', id: 'brake', title: t.brakeHint, onclick: () => void brakeWatched(session) })
+  const nudge = button({ id: 'nudge', title: t.nudgeHint, onclick: () => void nudgeWatched(session) })
+  const brake = button({ id: 'brake', title: t.brakeHint, onclick: () => void brakeWatched(session) })
   const name = () => {
     nudge.textContent = t.nudge(session.watched + 1)
     brake.textContent = t.brake(session.watched + 1)
@@ -42,7 +42,7 @@ function watchedButtons(session: Session): HTMLButtonElement[] {
 
 export function controlsView(session: Session, preview: (summary: Verdict | null) => void): HTMLElement {
   const { parameters } = session.start
-  const make = (p: Parameter) => new ParameterControl(session, p, preview).element
+  const make = (p: Parameter) => parameterControl(session, p, preview)
   const first = FIRST.map(name => parameters.find(p => p.name === name)).filter(p => p !== undefined)
   const rest = parameters.filter(p => !FIRST.includes(p.name))
   const buttons = watchedButtons(session)
@@ -54,7 +54,7 @@ export function controlsView(session: Session, preview: (summary: Verdict | null
     el('h3', {}, t.road),
     el('div', { class: 'controls' }, ...rest.filter(p => p.of === 'road').map(make), startControl(session)),
   )
-  const more = el('button', { type: 'button', id: 'more-controls', 'aria-expanded': 'false', 'aria-controls': 'others' }, t.more)
+  const more = button({ id: 'more-controls', 'aria-expanded': 'false', 'aria-controls': 'others' }, t.more)
   more.addEventListener('click', () => {
     others.hidden = !others.hidden
     more.textContent = others.hidden ? t.more : t.less

@@ -4,7 +4,7 @@ import { Cancelled } from '../../core/client'
 import { text } from '../../text'
 import { fixed } from '../../text/format'
 import { dialog } from '../../ui/dialog'
-import { el } from '../../ui/dom'
+import { button, el } from '../../ui/dom'
 import { save } from '../../ui/download'
 import { numberField } from '../../ui/number_field'
 
@@ -49,7 +49,7 @@ function exportPart(session: Session): Node[] {
   const bar = el('progress', { max: 1, value: 0, hidden: true, 'aria-label': t.export })
   const status = el('p', { role: 'status', id: 'export-status' })
   const shown = el('textarea', { rows: 8, readonly: true, hidden: true, 'aria-label': t.show, id: 'export-text' })
-  const cancel = el('button', { type: 'button', hidden: true, onclick: () => void session.client.ask('cancel', {}) }, t.cancel)
+  const cancel = button({ hidden: true, onclick: () => void session.client.ask('cancel', {}) }, t.cancel)
   const csv = async (use: (content: string) => void) => {
     const measurement = fields.measurement()
     if (measurement === null) return
@@ -73,8 +73,8 @@ function exportPart(session: Session): Node[] {
     shown.value = content
     shown.select()
   }
-  const saveCsv = el('button', { type: 'button', class: 'main', id: 'save-csv', onclick: () => void csv(content => save(fields.file(), 'text/csv', content)) }, t.save)
-  const showCsv = el('button', { type: 'button', id: 'show-csv', onclick: () => void csv(show) }, t.show)
+  const saveCsv = button({ class: 'main', id: 'save-csv', onclick: () => void csv(content => save(fields.file(), 'text/csv', content)) }, t.save)
+  const showCsv = button({ id: 'show-csv', onclick: () => void csv(show) }, t.show)
   return [el('h3', {}, t.export), ...fields.elements, el('div', { class: 'buttons' }, saveCsv, showCsv, cancel), bar, status, shown, el('p', {}, t.note)]
 }
 
@@ -102,9 +102,8 @@ function openPart(session: Session): Node[] {
 }
 
 export function filesDialog(session: Session): HTMLDialogElement {
-  const saveScenario = el(
-    'button',
-    { type: 'button', onclick: () => save('scenario.json', 'application/json', `${JSON.stringify(session.snapshot.scenario, null, 2)}\n`) },
+  const saveScenario = button(
+    { onclick: () => save('scenario.json', 'application/json', `${JSON.stringify(session.snapshot.scenario, null, 2)}\n`) },
     t.scenario,
   )
   return dialog('files', t.title, ...exportPart(session), el('div', { class: 'buttons' }, saveScenario), ...openPart(session))

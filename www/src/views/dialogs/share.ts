@@ -3,13 +3,13 @@ import type { Session } from '../../app/session'
 import { base } from '../../app/url'
 import { text } from '../../text'
 import { dialog } from '../../ui/dialog'
-import { el } from '../../ui/dom'
+import { button, el } from '../../ui/dom'
 
 const t = text.share
 
 /** Copies a field's text. Sandboxed frames may not write to the clipboard; there the older command may still copy what is
  * selected, and if it does not, the text stays selected. */
-async function copy(field: HTMLTextAreaElement, button: HTMLButtonElement): Promise<void> {
+async function copy(field: HTMLTextAreaElement, copier: HTMLButtonElement): Promise<void> {
   field.select()
   let done = false
   try {
@@ -20,17 +20,17 @@ async function copy(field: HTMLTextAreaElement, button: HTMLButtonElement): Prom
     field.select()
     done = document.execCommand('copy')
   }
-  button.textContent = done ? t.copied : t.select
+  copier.textContent = done ? t.copied : t.select
   setTimeout(() => {
-    button.textContent = t.copy
+    copier.textContent = t.copy
   }, 2000)
 }
 
 /** A text to copy, with its label and button. */
 function copied(id: string, label: string, rows: number) {
   const field = el('textarea', { id, rows, readonly: true, spellcheck: 'false', onfocus: () => field.select() })
-  const button = el('button', { type: 'button', onclick: () => void copy(field, button) }, t.copy)
-  return { field, nodes: [el('label', { for: id }, label), field, el('div', { class: 'buttons' }, button)] }
+  const copier = button({ onclick: () => void copy(field, copier) }, t.copy)
+  return { field, nodes: [el('label', { for: id }, label), field, el('div', { class: 'buttons' }, copier)] }
 }
 
 export function shareDialog(session: Session): HTMLDialogElement {

@@ -4,14 +4,14 @@ import { valueOf } from '../../app/parameters'
 import type { Session } from '../../app/session'
 import { frame } from '../../charts/axes'
 import { keys } from '../../charts/keys'
-import type { Curves, Plane, Verdict } from '../../core/protocol'
+import type { Curves, Plane, Snapshot, Verdict } from '../../core/protocol'
 import { text } from '../../text'
 import { drawing, el, style } from '../../ui/dom'
 import { type Picture, drawDiagram } from './diagram_drawing'
 import { drawLabels } from './diagram_labels'
 import { type Ends, type Layout, type Point, layout } from './diagram_layout'
-import { type Diagram, MovedPoint, listen } from './diagram_point'
-import { type GrowthMap, growthMap } from './growth_map'
+import { type Diagram, listen, movedPoint } from './diagram_point'
+import { growthMap } from './growth_map'
 
 const t = text.diagram
 /** The axis of reaction times reaches at least to this value, s. */
@@ -39,217 +39,184 @@ function shadingChoice(changed: () => void): HTMLSelectElement {
   )
 }
 
-export class DiagramView implements Diagram {
-  readonly element: HTMLElement
-  #canvas = el('canvas', { role: 'img' })
-  #handle = pointHandle()
-  #lines = el('div')
-  #title = el('h3', { id: 'plane-title' }, t.title)
-  #shading = shadingChoice(() => this.show())
-  #everyMode = el('input', { id: 'plane-modes', type: 'checkbox', onchange: () => this.show() })
-  #plane: Plane | null = null
-  #growth: GrowthMap
-  #point: MovedPoint
-  /** Critical reaction times of the single modes, and what they were computed for. */
-  #modes: Float64Array = new Float64Array()
-  #modesOf = ''
-  /** Stable or unstable at the point, and the whole diagram, in words. */
-  #state = ''
-  #described = ''
-  #redraw: () => void
+/** The element, and those of its parts that change. `changed`: a person chose what to show. */
+function elements(changed: () => void) {
+  const canvas = el('canvas', { role: 'img' })
+  const handle = pointHandle()
+  const lines = el('div')
+  const title = el('h3', { id: 'plane-title' }, t.title)
+  const shading = shadingChoice(changed)
+  const every = el('input', { id: 'plane-modes', type: 'checkbox', onchange: changed })
+  const element = el(
+    'section',
+    { id: 'plane', 'aria-labelledby': 'plane-title' },
+    title,
+    el('div', { class: 'field' }, canvas, handle),
+    lines,
+    el('div', { class: 'choices-row' }, shading, el('label', { title: t.everyHint }, every, t.every)),
+  )
+  return { element, canvas, handle, lines, title, shading, every }
+}
 
-  /** `preview` shows the stability summary for another place, or with null that of the run. */
-  constructor(
-    readonly session: Session,
-    readonly preview: (summary: Verdict | null) => void,
-  ) {
-    this.element = el(
-      'section',
-      { id: 'plane', 'aria-labelledby': 'plane-title' },
-      this.#title,
-      el('div', { class: 'field' }, this.#canvas, this.#handle),
-      this.#lines,
-      el('div', { class: 'choices-row' }, this.#shading, el('label', { title: t.everyHint }, this.#everyMode, t.every)),
-    )
-    this.#point = new MovedPoint(this, this.#reactionTime.slider?.step ?? 0.01)
-    this.#growth = growthMap(
-      session.client,
-      // While the point is held, the worker answers its requests alone.
-      () => this.#point.held === null && this.#canvas.clientWidth > 0,
-      () => {
-        this.#showProgress()
-        this.#redraw()
-      },
-    )
-    this.#redraw = drawing(this.#canvas, c => {
-      const picture = this.#picture()
-      if (!picture) return
-      drawDiagram(c, picture)
-      drawLabels(c, picture)
-    })
-    listen(this.#handle, this.#canvas, this.#point)
-    new ResizeObserver(() => this.draw()).observe(this.#canvas)
-  }
+/** Number of the lane, from 1, where there are several. */
+const laneOf = ({ scenario, verdict }: Snapshot) => (scenario.lanes > 1 ? verdict.lane : null)
+const oneLaneStart = ({ scenario }: Snapshot) => scenario.start.startsWith('one-lane')
+const stateOf = ({ stable }: Verdict) => (stable === null ? '' : stable ? t.stable : t.unstable)
 
-  // --- what the moved point needs
+/** A sentence where drivers differ, else empty. */
+const differOf = ({ verdict }: Snapshot) => (verdict.alike ? '' : ` ${t.alike}`)
 
-  now(): Point {
-    const { scenario, verdict } = this.session.snapshot
-    // Where drivers are overridden, the lane may hold such drivers alone.
-    const own = scenario.exceptions.length > 0 && this.#plane
-    return { vehicles: verdict.vehicles, delay: own ? own.reaction_time : valueOf(this.session, this.#reactionTime) }
-  }
+function entitle(title: HTMLElement, handle: HTMLElement, snapshot: Snapshot): void {
+  const lane = laneOf(snapshot)
+  title.textContent = snapshot.verdict.alike ? t.title : t.titleAlike
+  title.title = handle.title = (lane === null ? t.hint : t.hintLanes(lane, !oneLaneStart(snapshot))) + differOf(snapshot)
+}
 
-  ends(): Ends {
-    return { vehicles: this.#curves?.vehicles.at(-1) ?? 133, delay: Math.max(HIGHEST, Math.ceil(this.now().delay * 2.2) / 2) }
-  }
+/** The axes reach to the last number of vehicles of the curves, and over a reaction time (s) and its surroundings. */
+const endsOf = (plane: Plane | null, delay: number): Ends => ({
+  vehicles: plane?.curves.vehicles.at(-1) ?? 133,
+  delay: Math.max(HIGHEST, Math.ceil(delay * 2.2) / 2),
+})
 
-  layout(): Layout {
-    return layout(frame(this.#canvas.clientWidth, this.#canvas.clientHeight, 30), this.ends())
-  }
-
-  total(vehicles: number): number {
-    return vehicles * (this.#oneLaneStart ? 1 : this.session.snapshot.scenario.lanes)
-  }
-
-  moved(): void {
-    this.#growth.halt()
-    this.draw()
-  }
-
-  foreseen(summary: Verdict): void {
-    this.#setState(summary)
-    this.preview(summary)
-    this.#placeHandle()
-  }
-
-  released(): void {
-    this.preview(null)
-    this.show()
-  }
-
-  // --- what the tab asks for
-
-  /** Shows other curves. */
-  of(plane: Plane): void {
-    this.#plane = plane
-    this.show()
-  }
-
-  /** Shows the scenario as it is now, and asks the core for what is chosen but not there yet. */
-  show(): void {
-    if (!this.session.snapshot) return
-    if (!this.#point.held) this.#setState(this.session.snapshot.verdict)
-    this.draw()
-    void this.#request()
-  }
-
-  draw(): void {
-    if (!this.session.snapshot || !this.#curves) return
-    this.#describe(this.#curves)
-    this.#redraw()
-    this.#placeHandle()
-  }
-
-  // --- its parts
-
-  get #reactionTime() {
-    return this.session.start.parameters.find(p => p.name === 'reaction_time')!
-  }
-  get #curves(): Curves | null {
-    return this.#plane && this.#plane.curves
-  }
-  /** Number of the lane, from 1, where there are several. */
-  get #lane(): number | null {
-    const { scenario, verdict } = this.session.snapshot
-    return scenario.lanes > 1 ? verdict.lane : null
-  }
-  get #oneLaneStart(): boolean {
-    return this.session.snapshot.scenario.start.startsWith('one-lane')
-  }
-  get #regions(): boolean {
-    return this.#shading.value === 'regions'
-  }
-  /** Whether in the run's time steps, or in continuous time. */
-  get #inSteps(): boolean {
-    return this.#shading.value !== 'continuous'
-  }
-  get #shownPoint(): Point {
-    return this.#point.held ?? this.now()
-  }
-
-  #picture(): Picture | null {
-    if (!this.#plane) return null
-    return {
-      layout: this.layout(),
-      curves: this.#plane.curves,
-      jam: this.#plane.jam,
-      point: this.#shownPoint,
-      growth: this.#regions ? null : this.#growth,
-      modes: this.#everyMode.checked ? { values: this.#modes, colour: style(this.#inSteps ? '--ink' : '--accent') } : null,
-      dark: this.session.view.dark,
-      name: (this.#regions ? t.vehicles : t.vehiclesShort)(this.#lane),
-    }
-  }
-
-  #setState({ stable }: Verdict): void {
-    this.#state = stable === null ? '' : stable ? t.stable : t.unstable
-  }
-
-  /** Tells how much of the map of growth rates is there. */
-  #showProgress(): void {
-    const part = this.#growth.part()
-    this.element.dataset.growth = this.#regions ? '' : part < 1 ? 'busy' : 'done'
-    this.#canvas.setAttribute('aria-label', this.#regions ? this.#described : `${this.#described} ${t.map(part)}`)
-  }
-
-  async #request(): Promise<void> {
-    const curves = this.#curves
-    if (!curves || this.#canvas.clientWidth === 0) return
-    const steps = this.#inSteps
-    const highest = this.ends().delay
-    const of = JSON.stringify([curves, steps])
-    this.#growth.show(this.#regions ? null : { key: `${of} ${highest}`, vehicles: curves.vehicles, highest, steps })
-    this.#showProgress()
-    if (this.#everyMode.checked && of !== this.#modesOf) {
-      this.#modesOf = of
-      this.#modes = await this.session.client.ask('planeModes', { steps })
-      this.#redraw()
-    }
-  }
-
-  #placeHandle(): void {
-    const { x, y, ends } = this.layout()
-    const { vehicles, delay } = this.#shownPoint
-    const handle = this.#handle
-    handle.style.left = `${x(Math.min(vehicles, ends.vehicles))}px`
-    handle.style.top = `${y(delay)}px`
-    handle.setAttribute('aria-valuemax', String(ends.delay))
-    handle.setAttribute('aria-valuenow', String(delay))
-    handle.setAttribute('aria-valuetext', t.value(vehicles, this.#lane, delay, this.#state))
-    handle.dataset.state = this.#state
-  }
-
-  /** Title, hint, the curves' names with their values at the point, and all of it in words. */
-  #describe({ vehicles: numbers, discrete_s, continuous_s, newell_s }: Curves): void {
-    const { vehicles } = this.#shownPoint
-    const lane = this.#lane
-    const at = numbers.findIndex(n => n >= vehicles)
-    const [discrete, continuous, newell] = [discrete_s[at] ?? null, continuous_s[at] ?? null, newell_s[at] ?? null]
-    const { alike } = this.session.snapshot.verdict
-    const differ = alike ? '' : ` ${t.alike}`
-    this.#title.title = this.#handle.title = (lane === null ? t.hint : t.hintLanes(lane, !this.#oneLaneStart)) + differ
-    this.#title.textContent = alike ? t.title : t.titleAlike
-    const words = t.describe(vehicles, lane, discrete, continuous, newell) + differ
-    if (words === this.#described) return
-    this.#described = words
-    this.#showProgress()
-    this.#lines.replaceChildren(
+/** The curves' names with their values at a number of vehicles, and the whole diagram in words. */
+function described({ vehicles: numbers, discrete_s, continuous_s, newell_s }: Curves, vehicles: number, snapshot: Snapshot) {
+  const at = numbers.findIndex(n => n >= vehicles)
+  const [discrete, continuous, newell] = [discrete_s[at] ?? null, continuous_s[at] ?? null, newell_s[at] ?? null]
+  return {
+    words: t.describe(vehicles, laneOf(snapshot), discrete, continuous, newell) + differOf(snapshot),
+    names: () =>
       keys([
         { label: t.discrete(discrete), colour: 'var(--ink)' },
         { label: t.continuous(continuous), colour: 'var(--accent)', dash: [8, 8] },
         { label: t.newell(newell), colour: 'var(--soft)', dash: [2, 5] },
       ]),
-    )
+  }
+}
+
+function placeHandle(handle: HTMLElement, { x, y, ends }: Layout, { vehicles, delay }: Point, lane: number | null, state: string): void {
+  handle.style.left = `${x(Math.min(vehicles, ends.vehicles))}px`
+  handle.style.top = `${y(delay)}px`
+  handle.setAttribute('aria-valuemax', String(ends.delay))
+  handle.setAttribute('aria-valuenow', String(delay))
+  handle.setAttribute('aria-valuetext', t.value(vehicles, lane, delay, state))
+  handle.dataset.state = state
+}
+
+/** `preview` shows the stability summary for another place, or with null that of the run. */
+export function diagramView(session: Session, preview: (summary: Verdict | null) => void) {
+  const reactionTime = session.start.parameters.find(p => p.name === 'reaction_time')!
+  const show = () => {
+    if (!session.snapshot) return
+    if (!point.held()) state = stateOf(session.snapshot.verdict)
+    draw()
+    void request()
+  }
+  const { element, canvas, handle, lines, title, shading, every } = elements(show)
+  let plane: Plane | null = null
+  /** Critical reaction times of the single modes, and what they were computed for. */
+  let modes: Float64Array = new Float64Array()
+  let modesOf = ''
+  /** Stable or unstable at the point, and the whole diagram, in words. */
+  let state = ''
+  let words = ''
+
+  const regions = () => shading.value === 'regions'
+  /** Whether in the run's time steps, or in continuous time. */
+  const inSteps = () => shading.value !== 'continuous'
+  const now = (): Point => {
+    const { scenario, verdict } = session.snapshot
+    // Where drivers are overridden, the lane may hold such drivers alone.
+    const own = scenario.exceptions.length > 0 && plane
+    return { vehicles: verdict.vehicles, delay: own ? own.reaction_time : valueOf(session, reactionTime) }
+  }
+  const shown = () => point.held() ?? now()
+  const present = (): Layout => layout(frame(canvas.clientWidth, canvas.clientHeight, 30), endsOf(plane, now().delay))
+  const lane = () => laneOf(session.snapshot)
+  const place = () => placeHandle(handle, present(), shown(), lane(), state)
+  /** Tells how much of the map of growth rates is there. */
+  const showProgress = () => {
+    element.dataset.growth = regions() ? '' : growth.part() < 1 ? 'busy' : 'done'
+    canvas.setAttribute('aria-label', regions() ? words : `${words} ${t.map(growth.part())}`)
+  }
+  const draw = () => {
+    if (!session.snapshot || !plane) return
+    const description = described(plane.curves, shown().vehicles, session.snapshot)
+    entitle(title, handle, session.snapshot)
+    if (description.words !== words) {
+      words = description.words
+      showProgress()
+      lines.replaceChildren(description.names())
+    }
+    redraw()
+    place()
+  }
+  /** Asks the core for what is chosen but not there yet. */
+  const request = async () => {
+    if (!plane || canvas.clientWidth === 0) return
+    const { vehicles } = plane.curves
+    const highest = present().ends.delay
+    const steps = inSteps()
+    const of = JSON.stringify([plane.curves, steps])
+    growth.show(regions() ? null : { key: `${of} ${highest}`, vehicles, highest, steps })
+    showProgress()
+    if (every.checked && of !== modesOf) {
+      modesOf = of
+      modes = await session.client.ask('planeModes', { steps })
+      redraw()
+    }
+  }
+
+  const diagram: Diagram = {
+    session,
+    now,
+    layout: present,
+    total: vehicles => vehicles * (oneLaneStart(session.snapshot) ? 1 : session.snapshot.scenario.lanes),
+    moved() {
+      growth.halt()
+      draw()
+    },
+    foreseen(summary) {
+      state = stateOf(summary)
+      preview(summary)
+      place()
+    },
+    released() {
+      preview(null)
+      show()
+    },
+  }
+  const point = movedPoint(diagram, reactionTime.slider?.step ?? 0.01)
+  listen(handle, canvas, diagram, point)
+  // While the point is held, the worker answers the point's requests alone.
+  const growth = growthMap(session.client, () => !point.held() && canvas.clientWidth > 0, () => {
+    showProgress()
+    redraw()
+  })
+  const redraw = drawing(canvas, c => {
+    if (!plane) return
+    const picture: Picture = {
+      layout: present(),
+      curves: plane.curves,
+      jam: plane.jam,
+      point: shown(),
+      growth: regions() ? null : growth,
+      modes: every.checked ? { values: modes, colour: style(inSteps() ? '--ink' : '--accent') } : null,
+      dark: session.view.dark,
+      name: (regions() ? t.vehicles : t.vehiclesShort)(lane()),
+    }
+    drawDiagram(c, picture)
+    drawLabels(c, picture)
+  })
+  new ResizeObserver(draw).observe(canvas)
+  return {
+    element,
+    /** Shows other curves. */
+    of(next: Plane) {
+      plane = next
+      show()
+    },
+    /** Shows the scenario as it is now. */
+    show,
+    draw,
   }
 }

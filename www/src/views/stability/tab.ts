@@ -2,7 +2,7 @@
 import type { Session } from '../../app/session'
 import type { ModesGrowth, Roots, Verdict } from '../../core/protocol'
 import { el } from '../../ui/dom'
-import { DiagramView } from './diagram'
+import { diagramView } from './diagram'
 import { modesView } from './modes'
 import { rootsView } from './roots'
 import './stability.css'
@@ -12,7 +12,7 @@ const MEASURE = 400
 
 /** `preview` shows the stability summary for another place, or with null that of the run. */
 export function stabilityView(session: Session, preview: (summary: Verdict | null) => void): HTMLElement {
-  const diagram = new DiagramView(session, preview)
+  const diagram = diagramView(session, preview)
   const roots = rootsView()
   const modes = modesView()
   const element = el('div', { class: 'stability' }, el('div', { class: 'figures' }, diagram.element, roots.element, modes.element))
