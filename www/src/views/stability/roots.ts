@@ -3,7 +3,8 @@
 import { drawing, el, style } from '../../ui/dom'
 import type { Roots } from '../../core/protocol'
 import { text } from '../../text'
-import { axes, frame, say, ticks, word } from '../../charts/axes'
+import { FONT, axes, frame, say, ticks, word } from '../../charts/axes'
+import { line } from '../../charts/canvas'
 
 const t = text.roots
 /** Below these values the axes are about linear, above them logarithmic, 1/s. */
@@ -54,10 +55,7 @@ export function rootsView() {
     axes(c, f, ticks(reals, x), ticks([0, 0.1, 1, 10, 100].filter(v => log(v, IMAGINARY) < top), y), { x: t.real, y: t.imaginary })
     c.strokeStyle = style('--ink')
     c.lineWidth = 2
-    c.beginPath()
-    c.moveTo(x(0), f.top)
-    c.lineTo(x(0), f.bottom)
-    c.stroke()
+    line(c, x(0), f.top, x(0), f.bottom)
     c.strokeStyle = style('--soft')
     c.lineWidth = 1.25
     c.beginPath()
@@ -85,7 +83,7 @@ export function rootsView() {
       }
       c.fill()
     }
-    c.font = '12.5px system-ui, "DejaVu Sans", sans-serif'
+    c.font = FONT
     c.textBaseline = 'middle'
     c.textAlign = 'right'
     word(c, t.fades, x(0) - 6, f.top + 11, style('--good'))

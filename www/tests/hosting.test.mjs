@@ -1,6 +1,6 @@
-// Where the page runs, and what it says where it cannot.
+// Where the page runs: sites, frames, files and security policies; and what it says where it cannot run.
 import { readFileSync } from 'node:fs'
-import { dist, equal, holds, positions, ready, root, test } from './harness.mjs'
+import { dist, equal, holds, positions, ready, root, test } from './helpers.mjs'
 
 /** The ring moves: positions are read twice. */
 async function moves(at, core) {
