@@ -8,9 +8,7 @@ import { text } from './text'
 import { actionsView } from './views/actions'
 import { carView } from './views/car'
 import { controlsView } from './views/controls/controls'
-import { filesDialog } from './views/dialogs/files'
-import { helpDialog } from './views/dialogs/help'
-import { shareDialog } from './views/dialogs/share'
+import { dialogOpener } from './views/dialogs/open'
 import { figuresLink } from './views/figures_link'
 import { headerView } from './views/header'
 import { lanesView } from './views/lanes'
@@ -34,11 +32,9 @@ async function run(app: HTMLElement): Promise<void> {
   if (view) document.body.dataset.view = view
 
   const summary = summaryView(session)
-  const share = shareDialog(session)
-  const files = filesDialog(session)
-  const help = helpDialog(session)
+  const open = dialogOpener(session, app)
   const { link: figures, show } = figuresLink(session, app)
-  const header = headerView(session, { share, files, help, figures })
+  const header = headerView(session, open, figures)
   const ring = ringView(session, transportView(session))
   const controls = controlsView(session, summary.preview)
   const map = await mapView(session)
@@ -60,9 +56,6 @@ async function run(app: HTMLElement): Promise<void> {
       el('div', { class: 'left' }, ring, controls),
       el('div', { class: 'right' }, map, speedsView(session), more),
     ),
-    share,
-    files,
-    help,
     liveView(session),
   )
   app.dataset.core = client.place
@@ -86,7 +79,7 @@ async function run(app: HTMLElement): Promise<void> {
   await session.open('link', options.scenario)
 
   dark.addEventListener('change', () => void session.look({ dark: dark.matches }))
-  document.addEventListener('keydown', event => pressed(session, help, event))
+  document.addEventListener('keydown', event => pressed(session, () => void open('help'), event))
   // A person who has asked the system for less motion starts the run with a button; for all others it plays at once.
   const figuresFirst = document.body.dataset.view === 'figures'
   if (figuresFirst) await show('figures')

@@ -23,6 +23,7 @@ for (const colorScheme of ['light', 'dark']) {
     }
     for (const dialog of ['share', 'files', 'help']) {
       await page.click(`#open-${dialog}`)
+      await page.waitForSelector(`#${dialog}[open]`)
       await clean(page, dialog)
       await page.keyboard.press('Escape')
     }

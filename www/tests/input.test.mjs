@@ -27,7 +27,11 @@ test('problems and the note of an experiment disappear when something else is op
   const page = await open('index.html', { reducedMotion: 'reduce' })
   await ready(page)
   const others = {
-    file: () => page.setInputFiles('#file', { name: 'forty.json', mimeType: 'application/json', buffer: Buffer.from('{"vehicles": 40}') }),
+    file: async () => {
+      await page.click('#open-files')
+      await page.setInputFiles('#file', { name: 'forty.json', mimeType: 'application/json', buffer: Buffer.from('{"vehicles": 40}') })
+      await page.keyboard.press('Escape')
+    },
     link: () => page.evaluate(() => void (location.hash = '#vehicles=40')),
   }
   for (const [name, other] of Object.entries(others)) {

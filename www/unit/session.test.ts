@@ -52,7 +52,7 @@ const opened = async () => {
   return { client, session }
 }
 
-test('messages about a link come out, and the rest is open', async () => {
+test('problems with a link are reported, and the rest of it is opened', async () => {
   const session = new Session(new FakeClient(), start, false)
   const seen: (readonly string[])[] = []
   session.on('problem', messages => seen.push(messages))
@@ -61,7 +61,7 @@ test('messages about a link come out, and the rest is open', async () => {
   expect(session.snapshot.scenario.vehicles).toBe(10)
 })
 
-test('playing asks for the steps that time asks for; a hidden page for none', async () => {
+test('playback asks for the steps that the time is worth; a hidden page asks for none', async () => {
   const { client, session } = await opened()
   session.playback.setFactor(2)
   session.playback.play()
@@ -85,7 +85,7 @@ test('pause and play in quick succession leave one chain of frames', async () =>
   expect(frames.length).toBe(1)
 })
 
-test('a refusal is told and changes nothing; a cancelled request is silent', async () => {
+test('a refusal is reported and changes nothing; a cancelled request is not reported', async () => {
   const { client, session } = await opened()
   const before = session.snapshot
   const seen: string[] = []
@@ -99,7 +99,7 @@ test('a refusal is told and changes nothing; a cancelled request is silent', asy
   expect(seen.length).toBe(1)
 })
 
-test('a dialog takes what went wrong, and still clears what stood on the page', async () => {
+test('an open dialog receives the problems, and the page is still cleared', async () => {
   const { client, session } = await opened()
   const [page, dialog, names]: [(readonly string[])[], (readonly string[])[], string[]] = [[], [], []]
   session.on('problem', messages => page.push(messages))
@@ -114,7 +114,7 @@ test('a dialog takes what went wrong, and still clears what stood on the page', 
   expect(names).toEqual(['', 'three-lanes'])
 })
 
-test('a run that begins anew begins its charts anew', async () => {
+test('a restarted run restarts its charts', async () => {
   const { client, session } = await opened()
   await session.playback.step()
   expect(session.series.time.length).toBe(2)
@@ -123,7 +123,7 @@ test('a run that begins anew begins its charts anew', async () => {
   expect(session.series.time.length).toBe(1)
 })
 
-test('charts keep as much as the map shows', () => {
+test('the series keep as many values as the map has columns', () => {
   const series = { time: [], mean: [], flow: [], imbalance: [], speeds: [[], []] } as Parameters<typeof append>[0]
   append(series, Float64Array.from({ length: 60 }, (_, k) => k), 4)
   expect(series.time).toEqual([36, 42, 48, 54])

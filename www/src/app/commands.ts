@@ -11,8 +11,8 @@ export const brake = (session: Session, vehicle: number) => session.act(`${vehic
 export const brakeWatched = (session: Session) => brake(session, session.watched)
 export const nudgeWatched = (session: Session) => session.act(`${session.watched + 1}:nudge=${NUDGE}`)
 
-/** Does what a key pressed anywhere on the page stands for. */
-export function pressed(session: Session, help: HTMLDialogElement, event: KeyboardEvent): void {
+/** Does what a key pressed anywhere on the page stands for. `help` opens the help. */
+export function pressed(session: Session, help: () => void, event: KeyboardEvent): void {
   if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]') || document.body.dataset.view === 'figures') return
   const at = event.target as HTMLElement
   // A field of text takes every key itself; a focused button takes the space bar.
@@ -24,7 +24,7 @@ export function pressed(session: Session, help: HTMLDialogElement, event: Keyboa
     r: () => void session.restart(true),
     n: () => void nudgeWatched(session),
     b: () => void brakeWatched(session),
-    '?': () => help.showModal(),
+    '?': help,
   }
   const command = commands[event.key.length === 1 ? event.key.toLowerCase() : event.key]
   if (!command) return

@@ -3,7 +3,7 @@
 import { drawing, el, style } from '../ui/dom'
 import { exactly, fixed, unit } from '../text/format'
 import { text } from '../text'
-import { type Frame, axes, flat, room, roundSteps, ticks } from './axes'
+import { type Frame, axes, flat, labelWidth, roundSteps, ticks } from './axes'
 import { clipped, line } from './canvas'
 import { type Line, keys } from './keys'
 import { before, trace } from './trace'
@@ -162,7 +162,7 @@ export function chart(label: string, name: string, digits: number): Chart {
     if (w < 60 || h < 50) return
     // The numbers come first: the frame leaves them their width, and their places follow from the frame.
     const steps = roundSteps(low, high, Math.max(2, Math.floor((h - 28) / 34)))
-    const f = (plot.frame = flat(w, h, room(steps), name))
+    const f = (plot.frame = flat(w, h, labelWidth(steps), name))
     const times = roundSteps(...plot.window, Math.max(2, Math.floor((f.right - f.left) / 42)))
     axes(c, f, ticks(times, plot.x), ticks(steps, plot.y), { x: text.map.time, y: name })
     drawLines(c, plot)

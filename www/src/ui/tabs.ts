@@ -1,4 +1,4 @@
-// Several views in one place, one at a time.
+// Tabs: several views in one place, of which one is visible; the arrow keys go from tab to tab.
 import { button, el } from './dom'
 import { text } from '../text'
 
@@ -20,10 +20,10 @@ export function tabs(views: readonly { id: string; name: string; panel: HTMLElem
   }
   const list = el('div', { role: 'tablist', 'aria-label': text.tabs.label }, ...buttons)
   list.addEventListener('keydown', event => {
-    const way = { ArrowRight: 1, ArrowLeft: -1 }[event.key]
-    if (way === undefined) return
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key]
+    if (by === undefined) return
     const now = buttons.findIndex(b => b.tabIndex === 0)
-    const next = (now + way + views.length) % views.length
+    const next = (now + by + views.length) % views.length
     choose(views[next]!.id)
     buttons[next]!.focus()
   })

@@ -20,7 +20,8 @@ function fullScreenIcon(): SVGElement {
   return svg
 }
 
-export function headerView(session: Session, dialogs: { share: HTMLDialogElement; files: HTMLDialogElement; help: HTMLDialogElement; figures: HTMLElement }): { element: HTMLElement; note: HTMLElement } {
+/** `open` opens a dialog; `figures` is the link to the paper's figures. */
+export function headerView(session: Session, open: (dialog: 'share' | 'files' | 'help') => void, figures: HTMLElement): { element: HTMLElement; note: HTMLElement } {
   const words = el('p')
   const note = el('div', { id: 'preset', role: 'status', hidden: true }, words, button({ 'aria-label': t.close, onclick: () => (note.hidden = true) }, '✕'))
   const presets = el(
@@ -53,7 +54,6 @@ export function headerView(session: Session, dialogs: { share: HTMLDialogElement
     note.hidden = !preset
     if (preset) words.replaceChildren(el('strong', {}, `${preset.title}. `), `${preset.notice} `, el('em', {}, `${t.next} `), preset.next)
   })
-  const opener = (dialog: HTMLDialogElement) => () => dialog.showModal()
   const full = () => void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen()).catch(() => {})
   const element = el(
     'header',
@@ -61,11 +61,11 @@ export function headerView(session: Session, dialogs: { share: HTMLDialogElement
     el('h1', {}, text.title),
     el('span', { class: 'subtitle' }, text.subtitle),
     presets,
-    button({ id: 'open-share', onclick: opener(dialogs.share) }, t.share),
-    button({ id: 'open-files', onclick: opener(dialogs.files) }, t.files),
-    dialogs.figures,
+    button({ id: 'open-share', onclick: () => open('share') }, t.share),
+    button({ id: 'open-files', onclick: () => open('files') }, t.files),
+    figures,
     document.fullscreenEnabled ? button({ class: 'wide-only', 'aria-label': t.fullscreen, title: t.fullscreen, onclick: full }, fullScreenIcon()) : null,
-    button({ id: 'open-help', 'aria-label': t.help, onclick: opener(dialogs.help) }, '?'),
+    button({ id: 'open-help', 'aria-label': t.help, onclick: () => open('help') }, '?'),
   )
   return { element, note }
 }

@@ -2,13 +2,14 @@
 import type { Session } from '../../app/session'
 import { Cancelled } from '../../core/client'
 import { text } from '../../text'
+import { dialogsText } from '../../text/dialogs'
 import { fixed } from '../../text/format'
 import { dialog } from '../../ui/dialog'
 import { button, el } from '../../ui/dom'
 import { save } from '../../ui/download'
 import { numberField } from '../../ui/number_field'
 
-const t = text.files
+const t = dialogsText.files
 const TABLES = ['trajectories', 'speed-map', 'speeds', 'flow-map', 'flow', 'lanes', 'events', 'growth'] as const
 
 /** Which table, and how often it has a row: the fields, and the measurement that they describe. */

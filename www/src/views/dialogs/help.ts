@@ -2,10 +2,11 @@
 import { BRAKE } from '../../app/commands'
 import type { Session } from '../../app/session'
 import { text } from '../../text'
+import { dialogsText } from '../../text/dialogs'
 import { dialog } from '../../ui/dialog'
 import { el } from '../../ui/dom'
 
-const t = text.help
+const t = dialogsText.help
 
 export function helpDialog(session: Session): HTMLDialogElement {
   return dialog(

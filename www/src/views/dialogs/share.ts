@@ -1,11 +1,11 @@
 // The share dialog: the link to the session as it is now, and the HTML that shows it in a course page.
 import type { Session } from '../../app/session'
 import { base } from '../../app/url'
-import { text } from '../../text'
+import { dialogsText } from '../../text/dialogs'
 import { dialog } from '../../ui/dialog'
 import { button, el } from '../../ui/dom'
 
-const t = text.share
+const t = dialogsText.share
 
 /** Copies a field's text. Sandboxed frames may not write to the clipboard; there the older command may still copy what is
  * selected, and if it does not, the text stays selected. */
@@ -52,7 +52,7 @@ export function shareDialog(session: Session): HTMLDialogElement {
         : `${folder}embed.html${scenario === '' ? '' : `#${scenario}`}`
     embed.field.value = `<iframe src="${frame.replaceAll('&', '&amp;')}" width="100%" height="520" style="border:0" allowfullscreen title="Ringroad"></iframe>`
   }
-  element.addEventListener('toggle', fill)
+  fill()
   session.on('snapshot', fill)
   return element
 }

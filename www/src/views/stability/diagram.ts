@@ -73,8 +73,8 @@ function entitle(title: HTMLElement, handle: HTMLElement, snapshot: Snapshot): v
 }
 
 /** The axes reach to the last number of vehicles of the curves, and over a reaction time (s) and its surroundings. */
-const endsOf = (plane: Plane | null, delay: number): Ends => ({
-  vehicles: plane?.curves.vehicles.at(-1) ?? 133,
+const endsOf = (data: Plane | null, delay: number): Ends => ({
+  vehicles: data?.curves.vehicles.at(-1) ?? 133,
   delay: Math.max(HIGHEST, Math.ceil(delay * 2.2) / 2),
 })
 
@@ -112,7 +112,7 @@ export function diagramView(session: Session, preview: (summary: Verdict | null)
     void request()
   }
   const { element, canvas, handle, lines, title, shading, every } = elements(show)
-  let plane: Plane | null = null
+  let data: Plane | null = null
   /** Critical reaction times of the single modes, and what they were computed for. */
   let modes: Float64Array = new Float64Array()
   let modesOf = ''
@@ -126,11 +126,11 @@ export function diagramView(session: Session, preview: (summary: Verdict | null)
   const now = (): Point => {
     const { scenario, verdict } = session.snapshot
     // Where drivers are overridden, the lane may hold such drivers alone.
-    const own = scenario.exceptions.length > 0 && plane
+    const own = scenario.exceptions.length > 0 && data
     return { vehicles: verdict.vehicles, delay: own ? own.reaction_time : valueOf(session, reactionTime) }
   }
   const shown = () => point.held() ?? now()
-  const present = (): Layout => layout(frame(canvas.clientWidth, canvas.clientHeight, 30), endsOf(plane, now().delay))
+  const present = (): Layout => layout(frame(canvas.clientWidth, canvas.clientHeight, 30), endsOf(data, now().delay))
   const lane = () => laneOf(session.snapshot)
   const place = () => placeHandle(handle, present(), shown(), lane(), state)
   /** Tells how much of the map of growth rates is there. */
@@ -139,8 +139,8 @@ export function diagramView(session: Session, preview: (summary: Verdict | null)
     canvas.setAttribute('aria-label', regions() ? words : `${words} ${t.map(growth.part())}`)
   }
   const draw = () => {
-    if (!session.snapshot || !plane) return
-    const description = described(plane.curves, shown().vehicles, session.snapshot)
+    if (!session.snapshot || !data) return
+    const description = described(data.curves, shown().vehicles, session.snapshot)
     entitle(title, handle, session.snapshot)
     if (description.words !== words) {
       words = description.words
@@ -152,11 +152,11 @@ export function diagramView(session: Session, preview: (summary: Verdict | null)
   }
   /** Asks the core for what is chosen but not there yet. */
   const request = async () => {
-    if (!plane || canvas.clientWidth === 0) return
-    const { vehicles } = plane.curves
+    if (!data || canvas.clientWidth === 0) return
+    const { vehicles } = data.curves
     const highest = present().ends.delay
     const steps = inSteps()
-    const of = JSON.stringify([plane.curves, steps])
+    const of = JSON.stringify([data.curves, steps])
     growth.show(regions() ? null : { key: `${of} ${highest}`, vehicles, highest, steps })
     showProgress()
     if (every.checked && of !== modesOf) {
@@ -193,11 +193,11 @@ export function diagramView(session: Session, preview: (summary: Verdict | null)
     redraw()
   })
   const redraw = drawing(canvas, c => {
-    if (!plane) return
+    if (!data) return
     const picture: Picture = {
       layout: present(),
-      curves: plane.curves,
-      jam: plane.jam,
+      curves: data.curves,
+      jam: data.jam,
       point: shown(),
       growth: regions() ? null : growth,
       modes: every.checked ? { values: modes, colour: style(inSteps() ? '--ink' : '--accent') } : null,
@@ -212,7 +212,7 @@ export function diagramView(session: Session, preview: (summary: Verdict | null)
     element,
     /** Shows other curves. */
     of(next: Plane) {
-      plane = next
+      data = next
       show()
     },
     /** Shows the scenario as it is now. */

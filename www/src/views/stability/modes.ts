@@ -2,7 +2,7 @@
 import { drawing, el, style } from '../../ui/dom'
 import type { ModesGrowth, Roots } from '../../core/protocol'
 import { text } from '../../text'
-import { FONT, axes, frame, room, roundSteps, say, ticks, word } from '../../charts/axes'
+import { FONT, axes, frame, labelWidth, roundSteps, say, ticks, word } from '../../charts/axes'
 import { clipped, line } from '../../charts/canvas'
 
 const t = text.modes
@@ -97,7 +97,7 @@ export function modesView() {
     const low = Math.min(...rates) - 0.08 * span
     const high = Math.max(...rates) + 0.16 * span
     const steps = roundSteps(low, high, 4)
-    const f = frame(w, h, Math.max(46, room(steps)))
+    const f = frame(w, h, Math.max(46, labelWidth(steps)))
     const x = (mode: number) => f.left + ((f.right - f.left) * (mode - 0.5)) / count
     const y = (rate: number) => f.bottom - ((f.bottom - f.top) * (rate - low)) / (high - low)
     c.fillStyle = style('--bad-ground')
