@@ -58,7 +58,7 @@ TESTS := setup format lint hashes lint-wasm documentation package rust csv types
 test: $(TESTS:%=test-%) ## run every test: core, command, CSV, WebAssembly and page
 	@echo
 	for name in $(TESTS); do \
-		grep -shE '^(test result: |Ran [0-9]|OK|FAILED)|^ *(Tests|Test Files) |^ *[0-9]+ (passed|skipped|flaky)|\bkB\b' \
+		grep -shE '^(test result: |Ran [0-9]|OK|FAILED)|^ *(Tests|Test Files) |^ℹ (tests|pass|fail) |\bkB\b' \
 			$(LOGS)/test-$$name.log | sed "s/^ */$$name: /" || true; \
 	done
 

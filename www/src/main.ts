@@ -1,5 +1,5 @@
-// The one script of the page. The worker runs the same script, so that the core's glue is loaded once only;
-// what it finds tells which of the two it is.
+// The script of the page and of its worker: both run the same file, so that the core's JavaScript is loaded once. A worker has no
+// document.
 import { open } from './page'
 import { answerPage } from './core/worker'
 

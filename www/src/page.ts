@@ -1,25 +1,26 @@
-// The page: opens the core, builds the views, listens to keys.
-import { base, type PageOptions, readHash, writeHash } from './app/url'
+// The page: opens the core, builds the views, and follows the link and the keys.
+import { type PageOptions, readHash, writeHash } from './app/url'
+import { pressed } from './app/commands'
 import { openCore } from './core/open'
 import { el } from './ui/dom'
 import { Session } from './app/session'
 import { text } from './text'
 import { actionsView } from './views/actions'
 import { carView } from './views/car'
-import { brakeWatched, controlsView, nudgeWatched } from './views/controls'
-import { filesDialog, helpDialog, shareDialog } from './views/dialogs'
-import { doors } from './views/links'
+import { controlsView } from './views/controls/controls'
+import { dialogOpener } from './views/dialogs/open'
+import { figuresLink } from './views/figures_link'
 import { headerView } from './views/header'
 import { lanesView } from './views/lanes'
 import { liveView } from './views/live'
 import { mapView } from './views/map'
-import { ringView } from './views/ring'
+import { problemView } from './views/problem'
+import { ringView } from './views/ring/ring'
 import { speedsView } from './views/speeds'
 import { stabilityView } from './views/stability/tab'
+import { summaryView } from './views/summary'
 import { tabs } from './ui/tabs'
 import { transportView } from './views/transport'
-import { troubleView } from './views/trouble'
-import { verdictView } from './views/verdict'
 
 async function run(app: HTMLElement): Promise<void> {
   const { client, start } = await openCore()
@@ -30,23 +31,21 @@ async function run(app: HTMLElement): Promise<void> {
   let { view } = options
   if (view) document.body.dataset.view = view
 
-  const verdict = verdictView(session)
-  const share = shareDialog(session, base)
-  const files = filesDialog(session)
-  const help = helpDialog(session)
-  const { link: figures, show } = doors(session, app)
-  const header = headerView(session, { share, files, help, figures })
+  const summary = summaryView(session)
+  const open = dialogOpener(session, app)
+  const { link: figures, show } = figuresLink(session, app)
+  const header = headerView(session, open, figures)
   const ring = ringView(session, transportView(session))
-  const controls = controlsView(session, verdict.preview)
+  const controls = controlsView(session, summary.preview)
   const map = await mapView(session)
   const more = tabs([
-    { id: 'stability', name: text.tabs.stability, panel: stabilityView(session, verdict.preview) },
+    { id: 'stability', name: text.tabs.stability, panel: stabilityView(session, summary.preview) },
     { id: 'lanes', name: text.tabs.lanes, panel: lanesView(session) },
     { id: 'car', name: text.tabs.car, panel: carView(session) },
     { id: 'actions', name: text.tabs.actions, panel: actionsView(session) },
   ])
-  const messages = el('div', { class: 'messages' }, verdict.element, troubleView(session), header.note)
-  // What else fits one screen gives way to them.
+  const messages = el('div', { class: 'messages' }, summary.element, problemView(session), header.note)
+  // The style sheet makes the views below smaller by the height of the messages.
   new ResizeObserver(() => app.style.setProperty('--messages', `${messages.offsetHeight}px`)).observe(messages)
   app.replaceChildren(
     header.element,
@@ -57,14 +56,11 @@ async function run(app: HTMLElement): Promise<void> {
       el('div', { class: 'left' }, ring, controls),
       el('div', { class: 'right' }, map, speedsView(session), more),
     ),
-    share,
-    files,
-    help,
     liveView(session),
   )
   app.dataset.core = client.place
 
-  // The link follows the session; a link typed into the address bar opens another one.
+  // The address follows the session; a link typed into the address bar opens another scenario.
   let written = options.scenario
   session.on('snapshot', ({ link }) => {
     if (link === written) return
@@ -83,32 +79,12 @@ async function run(app: HTMLElement): Promise<void> {
   await session.open('link', options.scenario)
 
   dark.addEventListener('change', () => void session.look({ dark: dark.matches }))
-  document.addEventListener('keydown', event => key(session, help, event))
-  // Who asks for less motion starts the motion.
+  document.addEventListener('keydown', event => pressed(session, () => void open('help'), event))
+  // A person who has asked the system for less motion starts the run with a button; for all others it plays at once.
   const figuresFirst = document.body.dataset.view === 'figures'
   if (figuresFirst) await show('figures')
-  else if (!matchMedia('(prefers-reduced-motion: reduce)').matches) session.play()
+  else if (!matchMedia('(prefers-reduced-motion: reduce)').matches) session.playback.play()
   Object.assign(window, { ringroad: session })
-}
-
-function key(session: Session, help: HTMLDialogElement, event: KeyboardEvent): void {
-  if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]') || document.body.dataset.view === 'figures') return
-  const at = event.target as HTMLElement
-  // Where letters are typed they are letters; a focused button has the space bar for itself.
-  const typing = at.matches('textarea, select, input:not([type=range]):not([type=checkbox])')
-  if (typing || (event.key === ' ' && at.matches('button, summary, input, [role=tab]') && !at.matches('[type=range]'))) return
-  const act: Record<string, () => void> = {
-    ' ': () => session.toggle(),
-    '.': () => void session.step(),
-    r: () => void session.restart(true),
-    n: () => void nudgeWatched(session),
-    b: () => void brakeWatched(session),
-    '?': () => help.showModal(),
-  }
-  const found = act[event.key.length === 1 ? event.key.toLowerCase() : event.key]
-  if (!found) return
-  event.preventDefault()
-  found()
 }
 
 export function open(): void {

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest'
-import { labels, room, roundSteps } from '../src/charts/axes'
+import { labelWidth, labels, roundSteps } from '../src/charts/axes'
 
-test('numbers at an axis differ, and stand in the room that they get', () => {
+test('numbers at an axis differ, and stand in the labelWidth that they get', () => {
   expect(labels(roundSteps(-0.0012, 0.0004, 4))).toEqual(['−0.001', '−0.0005', '0'])
   expect(labels(roundSteps(0, 20, 4))).toEqual(['0', '5', '10', '15', '20'])
   expect(labels([0, -10, -1, -0.1, 0.1, 1].sort((a, b) => a - b))).toEqual(['−10', '−1', '−0.1', '0', '0.1', '1'])
@@ -11,7 +11,7 @@ test('numbers at an axis differ, and stand in the room that they get', () => {
       const words = labels(steps)
       expect(new Set(words).size, words.join()).toBe(steps.length)
       steps.forEach((v, k) => expect(Number(words[k]!.replace('−', '-'))).toBeCloseTo(v, 12))
-      expect(room(steps)).toBeGreaterThan(7 * Math.max(...words.map(w => w.length)))
+      expect(labelWidth(steps)).toBeGreaterThan(7 * Math.max(...words.map(w => w.length)))
     }
   }
 })

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest'
-import { Pace } from '../src/app/playback'
+import { Pace } from '../src/app/pace'
 
-test('as many steps as time passes, and no time is lost to rounding', () => {
+test('the steps add up to the time that has passed, without loss by rounding', () => {
   const pace = new Pace()
   let steps = 0
   for (let k = 0; k < 600; k++) steps += pace.steps(1000 / 60, 1, 0.01)
@@ -9,7 +9,7 @@ test('as many steps as time passes, and no time is lost to rounding', () => {
   expect(steps).toBeLessThanOrEqual(1000)
 })
 
-test('slow playback takes a step now and then; fast playback takes more steps, never longer ones', () => {
+test('slow playback takes a step in some frames only; fast playback takes more steps of the same length', () => {
   const slow = new Pace()
   const taken = Array.from({ length: 60 }, () => slow.steps(1000 / 60, 0.1, 0.01))
   expect(Math.max(...taken)).toBe(1)
@@ -17,11 +17,11 @@ test('slow playback takes a step now and then; fast playback takes more steps, n
   expect(new Pace().steps(20, 100, 0.01)).toBe(200)
 })
 
-test('time that nobody saw is not made up for', () => {
+test('a long pause between two frames is not made up for', () => {
   expect(new Pace().steps(60_000, 1, 0.01)).toBe(10)
 })
 
-test('a machine that falls behind is told from one that keeps up', () => {
+test('a machine that falls behind is recognized', () => {
   const pace = new Pace()
   for (let k = 0; k < 50; k++) pace.report(200, 200)
   expect(pace.behind(100)).toBeNull()

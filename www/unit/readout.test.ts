@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { significant } from '../src/text/format'
+import { significant } from '../src/text/significant'
 import type { Field } from '../src/core/protocol'
 import { nearest, step, words } from '../src/charts/readout'
 

@@ -1,6 +1,7 @@
 import { beforeEach, expect, test, vi } from 'vitest'
 import { type Client, Cancelled, Refusal } from '../src/core/client'
-import { Session, append } from '../src/app/session'
+import { append } from '../src/app/series'
+import { Session } from '../src/app/session'
 import type { Answer, Ask, Frame, Name, Snapshot, Start } from '../src/core/protocol'
 
 /** A client that answers from a table and remembers what it was asked. */
@@ -51,19 +52,19 @@ const opened = async () => {
   return { client, session }
 }
 
-test('messages about a link come out, and the rest is open', async () => {
+test('problems with a link are reported, and the rest of it is opened', async () => {
   const session = new Session(new FakeClient(), start, false)
   const seen: (readonly string[])[] = []
-  session.on('trouble', messages => seen.push(messages))
+  session.on('problem', messages => seen.push(messages))
   expect(await session.open('link', 'x=1')).toBe(true)
   expect(seen.at(-1)).toEqual(['a bad entry'])
   expect(session.snapshot.scenario.vehicles).toBe(10)
 })
 
-test('playing asks for the steps that time asks for; a hidden page for none', async () => {
+test('playback asks for the steps that the time is worth; a hidden page asks for none', async () => {
   const { client, session } = await opened()
-  session.setPlayback(2)
-  session.play()
+  session.playback.setFactor(2)
+  session.playback.play()
   await tick(50)
   expect(client.asked).toContainEqual(['advance', { steps: 10, budget: 8 }])
   client.asked = []
@@ -77,18 +78,18 @@ test('playing asks for the steps that time asks for; a hidden page for none', as
 
 test('pause and play in quick succession leave one chain of frames', async () => {
   const { session } = await opened()
-  session.play()
-  session.pause()
-  session.play()
+  session.playback.play()
+  session.playback.pause()
+  session.playback.play()
   await tick(20)
   expect(frames.length).toBe(1)
 })
 
-test('a refusal is told and changes nothing; a cancelled request is silent', async () => {
+test('a refusal is reported and changes nothing; a cancelled request is not reported', async () => {
   const { client, session } = await opened()
   const before = session.snapshot
   const seen: string[] = []
-  session.on('trouble', messages => seen.push(...messages))
+  session.on('problem', messages => seen.push(...messages))
   client.refuse = new Refusal('vehicles: 300 is not allowed')
   expect(await session.set('vehicles', '300')).toBe(false)
   expect(seen).toEqual(['vehicles: 300 is not allowed'])
@@ -98,12 +99,12 @@ test('a refusal is told and changes nothing; a cancelled request is silent', asy
   expect(seen.length).toBe(1)
 })
 
-test('a dialog takes what went wrong, and still clears what stood on the page', async () => {
+test('an open dialog receives the problems, and the page is still cleared', async () => {
   const { client, session } = await opened()
   const [page, dialog, names]: [(readonly string[])[], (readonly string[])[], string[]] = [[], [], []]
-  session.on('trouble', messages => page.push(messages))
+  session.on('problem', messages => page.push(messages))
   session.on('opened', name => names.push(name))
-  session.onTrouble = messages => dialog.push(messages)
+  session.onProblem = messages => dialog.push(messages)
   expect(await session.open('file', '{}')).toBe(true)
   client.refuse = new Refusal('no scenario')
   expect(await session.open('file', '?')).toBe(false)
@@ -113,16 +114,16 @@ test('a dialog takes what went wrong, and still clears what stood on the page', 
   expect(names).toEqual(['', 'three-lanes'])
 })
 
-test('a run that begins anew begins its charts anew', async () => {
+test('a restarted run restarts its charts', async () => {
   const { client, session } = await opened()
-  await session.step()
+  await session.playback.step()
   expect(session.series.time.length).toBe(2)
   client.epoch = 1
   await session.restart(true)
   expect(session.series.time.length).toBe(1)
 })
 
-test('charts keep as much as the map shows', () => {
+test('the series keep as many values as the map has columns', () => {
   const series = { time: [], mean: [], flow: [], imbalance: [], speeds: [[], []] } as Parameters<typeof append>[0]
   append(series, Float64Array.from({ length: 60 }, (_, k) => k), 4)
   expect(series.time).toEqual([36, 42, 48, 54])

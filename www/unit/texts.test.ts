@@ -4,10 +4,10 @@ import { exactly, fixed, span } from '../src/text/format'
 import type { Verdict } from '../src/core/protocol'
 import { en } from '../src/text/en'
 import { inWords } from '../src/views/actions'
-import { shown } from '../src/views/controls'
+import { written } from '../src/app/parameters'
 import { roundSteps } from '../src/charts/axes'
 
-test('numbers have as many digits as mean something', () => {
+test('numbers have the decimals that are asked for, without trailing zeros', () => {
   expect(fixed(1.5, 3)).toBe('1.5')
   expect(fixed(100, 0)).toBe('100')
   expect(fixed(-0.0001, 2)).toBe('0')
@@ -15,7 +15,7 @@ test('numbers have as many digits as mean something', () => {
   expect([span(4.25), span(43.2), span(600), span(72_000), span(1e6)].map(s => s.replace('\u202f', ' '))).toEqual(['4.3 s', '43 s', '10 min', '20 h', '12 d'])
 })
 
-test('actions are told in words', () => {
+test('actions in words', () => {
   const parameters = [{ name: 'reaction_time', unit: 's' }, { name: 'frustration_rate', unit: '' }]
   expect(inWords('at=40:7:brake=3', parameters)).toEqual({ when: '40 s', what: 'car 7: brake for 3 s' })
   expect(inWords('at=30.5:all:reaction-time=0.75', parameters).what).toBe('all cars: reaction time 0.75\u202fs')
@@ -23,11 +23,11 @@ test('actions are told in words', () => {
   expect(inWords('at=0:3-7:nudge=-1,brake=2', parameters).what).toBe('cars 3-7: nudge by -1 m, brake for 2 s')
 })
 
-test('a number field shows what the slider can set, and more digits only where they are', () => {
-  const parameter = { slider: { min: 0, max: 1.5, step: 0.01 } } as Parameters<typeof shown>[0]
-  expect(shown(parameter, 0.75)).toBe('0.75')
-  expect(shown(parameter, 0.1 + 0.2)).toBe('0.30000000000000004')
-  expect(shown(parameter, 0.12345)).toBe('0.12345')
+test('a number has the decimals of its slider, and more only if it needs them', () => {
+  const parameter = { slider: { min: 0, max: 1.5, step: 0.01 } } as Parameters<typeof written>[0]
+  expect(written(parameter, 0.75)).toBe('0.75')
+  expect(written(parameter, 0.1 + 0.2)).toBe('0.30000000000000004')
+  expect(written(parameter, 0.12345)).toBe('0.12345')
 })
 
 test('axes have round numbers', () => {
@@ -36,7 +36,7 @@ test('axes have round numbers', () => {
   for (let high = 1; high < 1e6; high *= 1.7) expect(roundSteps(0, high, 5).length).toBeLessThanOrEqual(6)
 })
 
-test('the page takes its own entries out of a link', () => {
+test('the page takes the entries that it reads out of a link', () => {
   expect(readHash('#view=embed&vehicles=30&action=at%3D1')).toEqual({ view: 'embed', scenario: 'vehicles=30&action=at%3D1' })
   expect(readHash('')).toEqual({ view: null, scenario: '' })
   expect(readHash('#view=elsewhere').scenario).toBe('view=elsewhere')
@@ -59,22 +59,22 @@ const verdict: Verdict = {
 }
 const plain = (s: string) => s.replaceAll('\u202f', ' ')
 
-test('the verdict is a sentence with both thresholds', () => {
-  expect(plain(en.verdict.critical(verdict))).toBe('Drivers react after 0.75 s; this ring tolerates 0.679 s (τ = 0.684 s).')
-  expect(plain(en.verdict.wave(verdict))).toBe('Its fastest wave, 8 jams, doubles every 43 s.')
-  expect(plain(en.verdict.wave({ ...verdict, stable: true, rate: -Math.LN2 / 20, mode: 1 }))).toContain('1 jam, halves every 20 s')
-  expect(en.verdict.critical({ ...verdict, stable: null })).toContain('No wave')
-  expect(plain(en.verdict.critical({ ...verdict, critical_discrete: 0 }))).toContain('no delay')
+test('the stability summary is a sentence with both critical reaction times', () => {
+  expect(plain(en.summary.critical(verdict))).toBe('Drivers react after 0.75 s; this ring tolerates 0.679 s (τ = 0.684 s).')
+  expect(plain(en.summary.wave(verdict))).toBe('Its fastest wave, 8 jams, doubles every 43 s.')
+  expect(plain(en.summary.wave({ ...verdict, stable: true, rate: -Math.LN2 / 20, mode: 1 }))).toContain('1 jam, halves every 20 s')
+  expect(en.summary.critical({ ...verdict, stable: null })).toContain('No wave')
+  expect(plain(en.summary.critical({ ...verdict, critical_discrete: 0 }))).toContain('no delay')
 })
 
-test('what is measured says its window, and does not pretend', () => {
+test('the measured growth states its window and its uncertainty', () => {
   const growth = { rate: 0.016, standard_error: 0.0001, nonlinear_bound: 0.0004, window: 60, mode: 8 }
-  expect(plain(en.verdict.measured(growth, false))).toBe('measured: doubles every 43 s')
-  expect(plain(en.verdict.measured({ ...growth, window: 20 }, false))).toContain('20 s')
-  expect(en.verdict.measured({ ...growth, standard_error: 0.02 }, false)).toContain('neither')
-  expect(en.verdict.measured(growth, true)).toContain('now large waves')
-  expect(plain(en.verdict.measured({ ...growth, nonlinear_bound: 0.004 }, false))).toBe('measured: doubles every 34–59 s')
-  expect(plain(en.verdict.measured({ ...growth, rate: -0.005, nonlinear_bound: 0.002 }, false))).toBe('measured: halves every 96 s–4 min')
-  expect(en.verdict.measured({ ...growth, nonlinear_bound: 0.01, standard_error: 0.004 }, false)).toContain('not clear yet')
-  expect(en.verdict.measured({ ...growth, nonlinear_bound: 0.02 }, false)).toContain('too large to tell')
+  expect(plain(en.summary.measured(growth, false))).toBe('measured: doubles every 43 s')
+  expect(plain(en.summary.measured({ ...growth, window: 20 }, false))).toContain('20 s')
+  expect(en.summary.measured({ ...growth, standard_error: 0.02 }, false)).toContain('neither')
+  expect(en.summary.measured(growth, true)).toContain('now large waves')
+  expect(plain(en.summary.measured({ ...growth, nonlinear_bound: 0.004 }, false))).toBe('measured: doubles every 34–59 s')
+  expect(plain(en.summary.measured({ ...growth, rate: -0.005, nonlinear_bound: 0.002 }, false))).toBe('measured: halves every 96 s–4 min')
+  expect(en.summary.measured({ ...growth, nonlinear_bound: 0.01, standard_error: 0.004 }, false)).toContain('not clear yet')
+  expect(en.summary.measured({ ...growth, nonlinear_bound: 0.02 }, false)).toContain('too large to tell')
 })

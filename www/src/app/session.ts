@@ -1,96 +1,75 @@
-// The session: what is open, whether it plays, how fast. Views listen to it and ask it to do things.
+// The session: what is open and how it is looked at. Views listen to its events and ask it for changes; it asks the core.
 import { Cancelled, type Client } from '../core/client'
-import { Pace } from './playback'
 import type { Answer, Ask, Frame, Legends, Name, Opened, Snapshot, Start, View } from '../core/protocol'
 import { text } from '../text'
+import { Emitter } from './events'
+import { Playback } from './playback'
+import { type Series, append, empty, timeWindow } from './series'
 
-/** Columns since the start of the run, at most as many as the map shows. */
-export interface Series {
-  readonly time: number[]
-  readonly mean: number[]
-  readonly flow: (number | null)[]
-  readonly imbalance: number[]
-  readonly speeds: number[][]
-}
+/** Shortest time between two snapshots that are asked for while the run plays, ms. */
+const REFRESH = 400
 
 interface Events {
   /** Something other than the traffic changed. */
   snapshot: Snapshot
   frame: Frame
-  /** Something else is open: the name of an experiment, or empty for a link or a file. */
+  /** Another scenario is open: the name of its preset, or empty for a link or a file. */
   opened: string
-  /** Play, pause, playback, falling behind. */
+  /** Played, paused, another playback, or behind it. */
   playing: boolean
   legends: Legends
   watch: number
-  /** A sentence for the place where people look for what went wrong; empty to clear. */
-  trouble: readonly string[]
-  /** A part between 0 and 1 of a replay, or null when it is over. */
+  /** Sentences that say what was refused and why; an empty list clears them. */
+  problem: readonly string[]
+  /** Part of a replay that is done, 0 … 1, or null when it has ended. */
   progress: number | null
 }
-type Listener<K extends keyof Events> = (value: Events[K]) => void
 
-/** A run that has just begun is not squeezed to the left of an empty map, s. */
-const SHORTEST_WINDOW = 60
-
-export const PLAYBACKS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100] as const
-
-export class Session {
+export class Session extends Emitter<Events> {
   snapshot!: Snapshot
   frame!: Frame
   legends!: Legends
   view: View
-  playing = false
-  playback = 5
   /** The vehicle that the page follows, index from 0. */
   watched = 0
-  /** Takes what went wrong elsewhere, while a dialog that shows it itself is open. */
-  onTrouble: ((messages: readonly string[]) => void) | null = null
+  /** Receives problems in place of the page while a dialog is open that shows them itself. */
+  onProblem: ((messages: readonly string[]) => void) | null = null
   series: Series = empty(0)
-  #pace = new Pace()
-  #last = 0
-  #busy = false
+  /** Whether a request other than steps is on its way. */
+  busy = false
+  readonly playback: Playback
   #epoch = -1
-  /** Which chain of frames is alive: a second play must not start a second one. */
-  #chain = 0
   #refreshed = 0
-  #listeners = new Map<keyof Events, Set<(value: never) => void>>()
 
   constructor(
     readonly client: Client,
     readonly start: Start,
     dark: boolean,
   ) {
+    super()
     this.view = { ring: 'difference', map: 'difference', dark, lane: 0, riding: false }
+    this.playback = new Playback(this)
   }
 
-  on<K extends keyof Events>(event: K, listener: Listener<K>): void {
-    const set = this.#listeners.get(event) ?? new Set()
-    this.#listeners.set(event, set.add(listener as (value: never) => void))
+  #problem(messages: readonly string[]): void {
+    // An empty list clears the page even while a dialog takes the problems.
+    if (this.onProblem && messages.length > 0) this.onProblem(messages)
+    else this.emit('problem', messages)
   }
 
-  #emit<K extends keyof Events>(event: K, value: Events[K]): void {
-    if (event === 'trouble' && this.onTrouble) {
-      const messages = value as readonly string[]
-      // What stood on the page is cleared all the same.
-      if (messages.length > 0) return this.onTrouble(messages)
-    }
-    for (const listener of this.#listeners.get(event) ?? []) (listener as Listener<K>)(value)
-  }
-
-  /** Asks the core; a refusal is shown to people and comes back as null. */
+  /** Asks the core; a refusal is shown on the page and comes back as null. */
   async #ask<K extends Name>(name: K, ask: Ask<K>): Promise<Answer<K> | null> {
-    this.#busy = true
+    this.busy = true
     try {
-      const answer = await this.client.ask(name, ask, part => this.#emit('progress', part))
-      this.#emit('trouble', [])
+      const answer = await this.client.ask(name, ask, part => this.emit('progress', part))
+      this.#problem([])
       return answer
     } catch (e) {
-      if (!(e instanceof Cancelled)) this.#emit('trouble', [e instanceof Error ? e.message : String(e)])
+      if (!(e instanceof Cancelled)) this.#problem([e instanceof Error ? e.message : String(e)])
       return null
     } finally {
-      this.#busy = false
-      this.#emit('progress', null)
+      this.busy = false
+      this.emit('progress', null)
     }
   }
 
@@ -104,41 +83,43 @@ export class Session {
   }
   async #opened(opened: Opened | null, preset: string): Promise<boolean> {
     if (!opened) return false
-    if (this.watched >= opened.snapshot.scenario.vehicles) this.watched = 0
-    if (this.view.lane >= opened.snapshot.scenario.lanes) this.view = { ...this.view, lane: 0 }
     await this.#changed(opened.snapshot)
-    this.#emit('opened', preset)
-    if (opened.messages.length > 0) this.#emit('trouble', opened.messages)
+    this.emit('opened', preset)
+    if (opened.messages.length > 0) this.#problem(opened.messages)
     return true
   }
 
-  // --- what is done to it
+  // --- changes; each tells whether the core accepted it
 
-  /** Does something now, such as `7:brake=3`. */
+  /** Applies an action now, such as `7:brake=3`. */
   async act(action: string): Promise<boolean> {
-    return !this.#over() && this.#change('act', { text: action })
+    return !this.crashed() && this.#change('act', { text: action })
   }
-  /** After a collision nothing goes on; says so. */
-  #over(): boolean {
-    const over = !!this.frame?.collision
-    if (over) this.#emit('trouble', [text.trouble.over])
-    return over
+  /** Whether a collision has ended the run; if so, a problem on the page says it. */
+  crashed(): boolean {
+    const crashed = !!this.frame?.collision
+    if (crashed) this.#problem([text.problem.over])
+    return crashed
   }
-  /** Sets a parameter: a driver's from now on, any other by starting again. */
+  /** Sets a parameter: a driver's from now on, any other by starting the run again. */
   set(name: string, value: string): Promise<boolean> {
     return this.#change('set', { name, value })
   }
+  /** Takes an action back, given by its index, and replays the run without it. */
   remove(index: number): Promise<boolean> {
     return this.#change('remove', { index })
   }
+  /** Goes to a time (s). */
   seek(time: number): Promise<boolean> {
     return this.#change('seek', { time })
   }
+  /** Starts the run again; `keep`: with the actions made so far. */
   restart(keep: boolean): Promise<boolean> {
     return this.#change('restart', { keep })
   }
+  /** Moves the end of the run and plays on. */
   async extend(): Promise<void> {
-    if (await this.#change('extend', {})) this.play()
+    if (await this.#change('extend', {})) this.playback.play()
   }
 
   async #change<K extends 'act' | 'set' | 'remove' | 'seek' | 'restart' | 'extend'>(
@@ -147,8 +128,8 @@ export class Session {
   ): Promise<boolean> {
     const snapshot: Snapshot | null = await this.#ask(name, ask)
     if (!snapshot) {
-      // What was typed is put back to what holds.
-      if (this.snapshot) this.#emit('snapshot', this.snapshot)
+      // Controls show the value that is still in force.
+      if (this.snapshot) this.emit('snapshot', this.snapshot)
       return false
     }
     await this.#changed(snapshot)
@@ -157,130 +138,53 @@ export class Session {
 
   async #changed(snapshot: Snapshot): Promise<void> {
     this.snapshot = snapshot
-    this.#pace.reset()
+    this.playback.reset()
     if (this.view.lane >= snapshot.scenario.lanes) this.view = { ...this.view, lane: 0 }
     if (this.watched >= snapshot.scenario.vehicles) this.watched = 0
-    this.legends = await this.client.ask('view', this.view)
-    this.#emit('legends', this.legends)
-    const frame = await this.client.ask('advance', { steps: 0, budget: 0 })
-    this.#emit('snapshot', snapshot)
-    this.#show(frame)
+    const frame = await this.#repaint()
+    this.emit('snapshot', snapshot)
+    this.show(frame)
   }
+
+  // --- how it is looked at
 
   async look(change: Partial<View>): Promise<void> {
     this.view = { ...this.view, ...change }
-    this.legends = await this.client.ask('view', this.view)
-    this.#emit('legends', this.legends)
-    const frame = await this.client.ask('advance', { steps: 0, budget: 0 })
-    this.#show(frame)
+    this.show(await this.#repaint())
   }
 
   watch(vehicle: number): void {
     this.watched = vehicle
-    this.#emit('watch', vehicle)
+    this.emit('watch', vehicle)
   }
 
-
-  // --- playing
-
-  play(): void {
-    if (this.playing || this.frame?.finished) return
-    this.playing = true
-    this.#pace.reset()
-    this.#last = performance.now()
-    this.#emit('playing', true)
-    const chain = ++this.#chain
-    requestAnimationFrame(now => this.#tick(now, chain))
-  }
-  pause(): void {
-    if (!this.playing) return
-    this.playing = false
-    this.#emit('playing', false)
-  }
-  toggle(): void {
-    if (this.playing) this.pause()
-    else if (!this.#over()) this.play()
-  }
-  async step(): Promise<void> {
-    this.pause()
-    if (this.#busy || this.#over()) return
-    this.#show(await this.client.ask('advance', { steps: 1, budget: 1000 }))
-  }
-  setPlayback(playback: number): void {
-    this.playback = playback
-    this.#pace.reset()
-    this.#emit('playing', this.playing)
-  }
-  /** The time that map and charts show, s: the whole run until the map is full, then its latest part. */
+  /** The times (s) that map and charts begin and end at. */
   window(): [number, number] {
-    const { interval } = this.snapshot
-    const most = this.start.map.columns * interval
-    const now = (this.series.time.at(-1) ?? 0) + interval
-    return now > most ? [now - most, now] : [0, Math.max(now, SHORTEST_WINDOW)]
-  }
-  /** Playback that the machine manages, or null while it keeps up. */
-  behind(): number | null {
-    return this.playing ? this.#pace.behind(this.playback) : null
+    return timeWindow(this.series, this.snapshot.interval, this.start.map.columns)
   }
 
-  async #tick(now: number, chain: number): Promise<void> {
-    if (!this.playing || chain !== this.#chain) return
-    const elapsed = now - this.#last
-    this.#last = now
-    // A hidden page stops; browsers hold its frames back anyway, and time that nobody saw is not made up for.
-    if (!document.hidden && !this.#busy) {
-      const steps = this.#pace.steps(Math.max(0, elapsed), this.playback, this.snapshot.scenario.time_step)
-      if (steps > 0) {
-        const frame = await this.client.ask('advance', { steps, budget: this.client.budget })
-        this.#pace.report(steps, frame.finished ? steps : frame.taken)
-        this.#show(frame)
-        await this.#refresh(now)
-        if (frame.finished) {
-          this.pause()
-          return
-        }
-      }
-    }
-    requestAnimationFrame(next => this.#tick(next, chain))
+  /** Tells the core how to paint, and gets the present frame in its colours. */
+  async #repaint(): Promise<Frame> {
+    this.legends = await this.client.ask('view', this.view)
+    this.emit('legends', this.legends)
+    return this.client.ask('advance', { steps: 0, budget: 0 })
   }
 
-  /** A timed action or a lane change has made the snapshot out of date. */
-  async #refresh(now: number): Promise<void> {
-    if (this.frame.changes === this.snapshot.changes || now - this.#refreshed < 400) return
+  /** Asks for a new snapshot when a timed action or a lane change has made the present one out of date. */
+  async refresh(now: number): Promise<void> {
+    if (this.frame.changes === this.snapshot.changes || now - this.#refreshed < REFRESH) return
     this.#refreshed = now
     this.snapshot = await this.client.ask('snapshot', {})
-    this.#emit('snapshot', this.snapshot)
+    this.emit('snapshot', this.snapshot)
   }
 
-  #show(frame: Frame): void {
+  show(frame: Frame): void {
     if (frame.epoch !== this.#epoch) {
       this.#epoch = frame.epoch
       this.series = empty(this.snapshot.watched.length)
     }
     this.frame = frame
     append(this.series, frame.rows, this.start.map.columns)
-    this.#emit('frame', frame)
-  }
-}
-
-function empty(watched: number): Series {
-  return { time: [], mean: [], flow: [], imbalance: [], speeds: Array.from({ length: watched }, () => []) }
-}
-
-/** Appends the core's rows and drops what has left the window. */
-export function append(series: Series, rows: Float64Array, most: number): void {
-  const width = 4 + series.speeds.length
-  for (let at = 0; at + width <= rows.length; at += width) {
-    series.time.push(rows[at]!)
-    series.mean.push(rows[at + 1]!)
-    series.flow.push(Number.isNaN(rows[at + 2]) ? null : rows[at + 2]!)
-    series.imbalance.push(rows[at + 3]!)
-    series.speeds.forEach((speeds, k) => speeds.push(rows[at + 4 + k]!))
-  }
-  const excess = series.time.length - most
-  if (excess > 0) {
-    for (const column of [series.time, series.mean, series.flow, series.imbalance, ...series.speeds]) {
-      column.splice(0, excess)
-    }
+    this.emit('frame', frame)
   }
 }

@@ -1,10 +1,10 @@
-// The page's address: the experiment after the #, and what concerns the page alone.
+// The page's address: after the # stand the scenario, for the core, and entries that the page reads itself.
 
-/** Entries of a link that the page reads itself. */
+/** A link, split into what the page reads and what the core reads. */
 export interface PageOptions {
-  /** `view=embed`: ring, map, play and verdict only. `view=figures`: the paper's figures. */
+  /** `view=embed`: ring, map, playback and stability summary only. `view=figures`: the paper's figures. */
   readonly view: 'lab' | 'embed' | 'figures' | null
-  /** The rest, for the core. */
+  /** All other entries, for the core. */
   readonly scenario: string
 }
 
@@ -23,16 +23,16 @@ export function readHash(hash: string): PageOptions {
   return { view, scenario: rest.join('&') }
 }
 
-/** What stands after the #. */
+/** The part of the address from the # on. */
 export const hashOf = (scenario: string, view: PageOptions['view']): string =>
   `#${[view ? `view=${view}` : '', scenario].filter(part => part !== '').join('&')}`
 
-/** Puts the experiment into the address without a new entry in the history, where the frame allows it. */
+/** Writes the scenario into the address without a new entry in the history, where the frame allows it. */
 export function writeHash(scenario: string, view: PageOptions['view']): void {
   try {
     history.replaceState(null, '', hashOf(scenario, view))
   } catch {
-    // A srcdoc frame has no address of its own; the share dialog still has the link.
+    // A srcdoc frame has no address of its own; the share dialog shows the link there, too.
   }
 }
 

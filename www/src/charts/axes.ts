@@ -1,4 +1,4 @@
-// What all drawings with axes share: a frame with ticks, in the colours of the page.
+// What all drawings with axes share: the frame with its ticks, words in the picture, and the places of both.
 import { fixed } from '../text/format'
 import { style } from '../ui/dom'
 
@@ -9,7 +9,7 @@ export interface Frame {
   readonly top: number
   readonly right: number
   readonly bottom: number
-  /** Little height: the name of the x axis stands in the row of its numbers. */
+  /** For little height: the name of the x axis stands in the row of its numbers. */
   readonly flat?: boolean
 }
 export interface Tick {
@@ -17,7 +17,7 @@ export interface Tick {
   readonly label: string
 }
 
-/** Round numbers between two ends, at most so many steps apart. */
+/** Round numbers between two ends, equally far apart, with at most `most` steps between them. */
 export function roundSteps(low: number, high: number, most: number): number[] {
   const rough = (high - low) / most
   const power = 10 ** Math.floor(Math.log10(rough))
@@ -27,24 +27,24 @@ export function roundSteps(low: number, high: number, most: number): number[] {
   return steps
 }
 
-/** Numbers at an axis, with as many decimals as tell neighbours apart. */
+/** Numbers at an axis, with as many decimals as neighbours need to differ. */
 export function labels(values: readonly number[]): string[] {
   const step = Math.min(...values.map((v, k) => Math.abs(v - (values[k - 1] ?? 0)) || Number.POSITIVE_INFINITY))
   const decimals = Math.min(20, Math.max(3, Math.ceil(-Math.log10(step) - 1e-9)))
   return values.map(v => fixed(v, decimals))
 }
-/** Width that they need beside an axis, px. */
-export const room = (values: readonly number[]): number => 9 + 7.5 * Math.max(0, ...labels(values).map(label => label.length))
+/** The width that such numbers need at a vertical axis, px. */
+export const labelWidth = (values: readonly number[]): number => 9 + 7.5 * Math.max(0, ...labels(values).map(label => label.length))
 
 export function ticks(values: readonly number[], place: (v: number) => number): Tick[] {
   const words = labels(values)
   return values.map((v, k) => ({ at: place(v), label: words[k]! }))
 }
 
-/** Where a line one pixel wide fills pixels and does not straddle them. */
+/** The place near `at` where a line one pixel wide covers one row of pixels, not two in part. */
 const crisp = (at: number): number => Math.round(at) + 0.5
 
-/** Grid lines, numbers and the names of the axes; numbers that would touch their neighbour are left out. */
+/** Grid lines, numbers and the names of the axes; a number that would touch its neighbour is left out. */
 export function axes(c: CanvasRenderingContext2D, f: Frame, x: readonly Tick[], y: readonly Tick[], names: { x: string; y: string }): void {
   c.font = FONT
   c.lineWidth = 1
@@ -86,11 +86,11 @@ export function axes(c: CanvasRenderingContext2D, f: Frame, x: readonly Tick[], 
   c.fillText(names.x, f.right, f.bottom + (f.flat ? 4 : 35))
   c.textAlign = 'left'
   c.textBaseline = 'bottom'
-  // In little height beside the numbers, whose topmost may stand at the very top.
+  // With little height the name goes to the right of the numbers, because the topmost number may be at the upper edge.
   c.fillText(names.y, f.flat ? f.left : 0, f.top - (f.flat ? 4 : 8))
 }
 
-/** A word with a halo of the card's colour, so that lines behind it do not touch it. */
+/** A word with an outline in the card's colour, so that it can be read on top of lines. */
 export function word(c: CanvasRenderingContext2D, label: string, x: number, y: number, colour: string): void {
   c.strokeStyle = style('--card')
   c.lineWidth = 4
@@ -100,27 +100,29 @@ export function word(c: CanvasRenderingContext2D, label: string, x: number, y: n
   c.fillText(label, x, y)
 }
 
+/** A frame in a canvas of `w` × `h` px. `left`: width of the numbers at the y axis, px. */
 export const frame = (w: number, h: number, left: number): Frame => ({ left, top: 25, right: w - 8, bottom: h - 36 })
 
-/** Height that a word needs, px. */
+/** The height that a word needs, px. */
 export const WORD = 20
 
 /**
- * The middle of a word above or below a curve, as far right as it has room and leaves a point free; null where there is no such
- * place. `heights` are the curve's, pixel by pixel from x = 0; `half` is half of the word's width.
+ * The place (px) for the middle of a word above or below a curve: as far to the right as the word fits between the curve and `top` or
+ * `bottom` and does not cover the point `free`; null where it fits nowhere. `heights`: heights of the curve, pixel by pixel from
+ * x = 0; `half`: half of the word's width.
  */
 export function spot(heights: readonly number[], half: number, above: boolean, top: number, bottom: number, free: { x: number; y: number }): { x: number; y: number } | null {
   for (let x = heights.length - 1 - half; x >= half; x--) {
     const part = heights.slice(x - half, x + half + 1)
-    const gap = above ? Math.min(...part) - top : bottom - Math.max(...part)
-    const y = above ? top + Math.min(16, gap / 2) : bottom - Math.min(14, gap / 2)
+    const space = above ? Math.min(...part) - top : bottom - Math.max(...part)
+    const y = above ? top + Math.min(16, space / 2) : bottom - Math.min(14, space / 2)
     const near = Math.abs(x - free.x) < half + WORD && Math.abs(y - free.y) < 1.5 * WORD
-    if (gap >= WORD && !near) return { x, y }
+    if (space >= WORD && !near) return { x, y }
   }
   return null
 }
 
-/** A sentence in a picture that has nothing to show, in lines as wide as it. */
+/** A sentence in place of a picture that has nothing to show, broken into lines. */
 export function say(c: CanvasRenderingContext2D, sentence: string, w: number, h: number): void {
   c.font = FONT
   c.fillStyle = style('--soft')
@@ -135,6 +137,6 @@ export function say(c: CanvasRenderingContext2D, sentence: string, w: number, h:
   lines.forEach((line, k) => c.fillText(line, 2, h / 2 + 18 * (k - (lines.length - 1) / 2)))
 }
 
-/** The same in little height; with `name` there is room for that of the y axis. */
+/** A frame for little height. `name`: that of the y axis; an empty one needs no space above. */
 export const flat = (w: number, h: number, left: number, name: string): Frame =>
   ({ left, top: name === '' ? 8 : 20, right: w - 6, bottom: h - 21, flat: true })

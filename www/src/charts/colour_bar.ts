@@ -1,4 +1,4 @@
-// A colour bar with its numbers.
+// A colour bar: the colours of a quantity from low to high, with numbers and the unit.
 import { el } from '../ui/dom'
 import { fixed } from '../text/format'
 import type { Legend, Quantity } from '../core/protocol'
@@ -27,7 +27,7 @@ export function legendView(): { element: HTMLElement; show: (legend: Legend, qua
       ticks.replaceChildren(
         ...legend.ticks.map(({ value, place }) => {
           const sign = quantity === 'difference' && value > 0 ? '+' : ''
-          // On a short bar the minor numbers are left out.
+          // The style sheet leaves the minor numbers out on a short bar.
           const minor = quantity === 'difference' && Math.abs(value) === 0.1
           return el('span', { class: minor ? 'minor' : undefined, style: `left:${100 * place}%` }, `${sign}${fixed(value, 2)}`)
         }),

@@ -1,93 +1,138 @@
-// A line chart over time, the same window as the map's. A cursor reads its values: under the pointer, by touch, or
-// moved with the arrow keys.
+// A line chart over time. A cursor reads the values: it is under the pointer, where the chart was touched, or moved with
+// the arrow keys.
 import { drawing, el, style } from '../ui/dom'
 import { exactly, fixed, unit } from '../text/format'
 import { text } from '../text'
-import { type Frame, axes, flat, room, roundSteps, ticks } from './axes'
+import { type Frame, axes, flat, labelWidth, roundSteps, ticks } from './axes'
+import { clipped, line } from './canvas'
+import { type Line, keys } from './keys'
+import { before, trace } from './trace'
 
 const t = text.chart
 
-export interface Line {
-  readonly label: string
-  readonly colour: string
-  readonly dash?: readonly number[]
-  readonly width?: number
-}
-/** What a line shows: a value for each time, null or NaN where there is none; or one value that always holds. */
+/** What a line shows: a value for each time, null or NaN where there is none; or one value for all times. */
 export type Values = readonly (number | null)[] | number
 export interface Chart {
   readonly element: HTMLElement
-  /** Draws: times, the values of each line, the span of time (s), and the lower and upper end of the vertical axis. */
+  /** Draws: times, the values of each line, the first and last time shown (s), and the ends of the vertical axis. */
   show(time: readonly number[], values: readonly Values[], window: [number, number], low: number, high: number): void
-  /** Draws with these lines, in the colours of the page as it is now. */
+  /** Draws with these lines, in the present colours of the page. */
   restyle(lines: readonly Line[]): void
 }
 
-/** The last of some ascending times that is not after `at`; −1 if all are. */
-export function before(time: readonly number[], at: number): number {
-  let [low, high] = [0, time.length]
-  while (low < high) {
-    const middle = (low + high) >> 1
-    if (time[middle]! <= at) low = middle + 1
-    else high = middle
+/** What a chart shows, and where. */
+class Plot {
+  lines: readonly Line[] = []
+  time: readonly number[] = []
+  values: readonly Values[] = []
+  /** First and last time on the horizontal axis, s. */
+  window: readonly [number, number] = [0, 1]
+  low = 0
+  high = 1
+  frame: Frame = flat(0, 0, 0, '')
+  /** The cursor's place between the ends of the time axis, 0 … 1; null where there is none. */
+  cursor: number | null = null
+
+  /** `digits`: decimals of the values that are read. */
+  constructor(readonly digits: number) {}
+
+  x = (s: number): number => {
+    const { frame, window } = this
+    return frame.left + ((frame.right - frame.left) * (s - window[0])) / (window[1] - window[0])
   }
-  return low - 1
-}
-
-/** The greatest value; −∞ if there is none. */
-export function most(values: readonly (number | null)[]): number {
-  let found = Number.NEGATIVE_INFINITY
-  for (const value of values) if (value !== null && value > found) found = value
-  return found
-}
-
-/**
- * Draws values from the row `first` on. Of the rows within half a pixel only the first, the least, the greatest and
- * the last are drawn: a long run costs no more than a short one, and no peak is lost.
- */
-export function trace(
-  c: Pick<CanvasPath, 'moveTo' | 'lineTo'>,
-  time: readonly number[],
-  values: readonly (number | null)[],
-  first: number,
-  x: (time: number) => number,
-  y: (value: number) => number,
-): void {
-  // The column of half a pixel that is being gathered; none where the line begins anew.
-  let column = Number.NaN
-  let px = 0
-  let low = 0
-  let high = 0
-  let last = 0
-  // One row more than there are, so that the last column is drawn, too.
-  for (let k = Math.max(0, first); k <= time.length; k++) {
-    const value = values[k] ?? Number.NaN
-    const at = Number.isNaN(value) ? Number.NaN : x(time[k]!)
-    const py = y(value)
-    const own = Math.round(2 * at)
-    if (own === column) {
-      if (py < low) low = py
-      if (py > high) high = py
-      last = py
-      continue
-    }
-    if (low < high) {
-      c.lineTo(px, low)
-      c.lineTo(px, high)
-      c.lineTo(px, last)
-    }
-    // From a little to the left, so that a value between two gaps is seen, too.
-    if (!Number.isNaN(at)) {
-      if (Number.isNaN(column)) c.moveTo(at - 0.5, py)
-      c.lineTo(at, py)
-    }
-    column = own
-    px = at
-    low = high = last = py
+  y = (v: number): number => {
+    const { frame, low, high } = this
+    return frame.bottom - ((frame.bottom - frame.top) * (v - low)) / (high - low)
   }
+  /** The place of a time between the ends of the time axis. */
+  place(s: number): number {
+    const [start, end] = this.window
+    return (s - start) / (end - start)
+  }
+  /** The row nearest to the cursor. */
+  row(): number {
+    const { time, window, cursor } = this
+    const at = window[0] + cursor! * (window[1] - window[0])
+    const k = before(time, at)
+    return k < 0 || (k + 1 < time.length && time[k + 1]! - at < at - time[k]!) ? k + 1 : k
+  }
+  /** The value of line `k` in a row; NaN where there is none. */
+  value(k: number, row: number): number {
+    const of = this.values[k]
+    return (typeof of === 'number' ? of : of?.[row]) ?? Number.NaN
+  }
+  /** The name of line `k` and its value in a row, in words. */
+  reading(k: number, row: number): string {
+    const v = this.value(k, row)
+    return `${this.lines[k]!.label}\t${Number.isNaN(v) ? '–' : exactly(v, this.digits)}`
+  }
+  /** The time of a row in words. */
+  moment = (row: number): string => t.time(unit(fixed(this.time[row]!, 2), 's'))
 }
 
-/** `name`: what stands above the vertical axis, the unit, unless it is told elsewhere; `digits`: decimals that are read. */
+function drawLines(c: CanvasRenderingContext2D, { lines, time, values, window, frame: f, x, y }: Plot): void {
+  clipped(c, f.left, f.top - 1, f.right, f.bottom + 1, () => {
+    c.lineJoin = 'round'
+    const first = before(time, window[0])
+    lines.forEach(({ colour, width, dash }, k) => {
+      const own = values[k]
+      c.strokeStyle = colour
+      c.lineWidth = width ?? 1.75
+      c.setLineDash((dash ?? []) as number[])
+      if (typeof own === 'number') line(c, f.left, y(own), f.right, y(own))
+      else if (own) {
+        c.beginPath()
+        trace(c, time, own, first, x, y)
+        c.stroke()
+      }
+    })
+  })
+}
+
+/** The cursor in a row: a vertical line, and a point on each line that has a value there. `px`: its place. */
+function drawCursor(c: CanvasRenderingContext2D, plot: Plot, row: number, px: number): void {
+  const { top, bottom } = plot.frame
+  c.strokeStyle = style('--soft')
+  c.lineWidth = 1
+  line(c, px, top, px, bottom)
+  c.strokeStyle = style('--card')
+  plot.lines.forEach(({ colour }, k) => {
+    const v = plot.value(k, row)
+    if (typeof plot.values[k] === 'number' || Number.isNaN(v)) return
+    c.fillStyle = colour
+    c.beginPath()
+    c.arc(px, plot.y(v), 3.5, 0, 7)
+    c.fill()
+    c.stroke()
+  })
+}
+
+/** Pointer, touch and keys. `put` places the cursor, between 0 and 1 or null for none; `spoken`: for screen readers, too. */
+function listen(element: HTMLElement, canvas: HTMLElement, plot: Plot, put: (place: number | null, spoken?: boolean) => void): void {
+  const point = (event: PointerEvent) => {
+    const { left, right } = plot.frame
+    put((event.clientX - canvas.getBoundingClientRect().left - left) / Math.max(1, right - left))
+  }
+  element.addEventListener('pointermove', point)
+  element.addEventListener('pointerdown', event => {
+    point(event)
+    element.focus({ preventScroll: true })
+  })
+  // A finger covers the reading, so that the reading stays when the finger is lifted.
+  element.addEventListener('pointerleave', event => event.pointerType === 'mouse' && put(null))
+  element.addEventListener('focus', () => put(plot.cursor ?? 1, true))
+  element.addEventListener('blur', () => put(null))
+  element.addEventListener('keydown', event => {
+    const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -20, PageUp: 20, Home: -1e9, End: 1e9 }[event.key]
+    const { time } = plot
+    if (by === undefined || time.length === 0 || event.ctrlKey || event.metaKey || event.altKey) return
+    event.preventDefault()
+    plot.cursor ??= 1
+    put(plot.place(time[Math.min(time.length - 1, Math.max(0, plot.row() + by))]!), true)
+  })
+}
+
+/** `name`: what stands above the vertical axis, such as the unit; `digits`: decimals of the values that are read. */
 export function chart(label: string, name: string, digits: number): Chart {
   const canvas = el('canvas')
   const when = el('b')
@@ -108,128 +153,48 @@ export function chart(label: string, name: string, digits: number): Chart {
     canvas,
     tip,
   )
-  let lines: readonly Line[] = []
-  let time: readonly number[] = []
-  let values: readonly Values[] = []
-  let [start, end, low, high] = [0, 1, 0, 1]
-  let f: Frame = flat(0, 0, 0, '')
-  /** The cursor's place between the ends of the time axis, 0 … 1. */
-  let cursor: number | null = null
+  const plot = new Plot(digits)
   let names: readonly HTMLElement[] = []
 
-  const x = (s: number) => f.left + ((f.right - f.left) * (s - start)) / (end - start)
-  const y = (v: number) => f.bottom - ((f.bottom - f.top) * (v - low)) / (high - low)
-  /** The row nearest to the cursor. */
-  const row = () => {
-    const at = start + cursor! * (end - start)
-    const k = before(time, at)
-    return k < 0 || (k + 1 < time.length && time[k + 1]! - at < at - time[k]!) ? k + 1 : k
-  }
-  const value = (k: number, at: number) => {
-    const of = values[k]
-    return (typeof of === 'number' ? of : of?.[at]) ?? Number.NaN
-  }
-  const reading = (k: number, at: number) => {
-    const v = value(k, at)
-    return `${lines[k]!.label}\t${Number.isNaN(v) ? '–' : exactly(v, digits)}`
-  }
-  const moment = (at: number) => t.time(unit(fixed(time[at]!, 2), 's'))
-
   const redraw = drawing(canvas, (c, w, h) => {
+    const { cursor, time, low, high } = plot
     tip.hidden = cursor === null || time.length === 0
     if (w < 60 || h < 50) return
-    // First the numbers: the frame leaves them their width, and they find their places in it.
+    // The numbers come first: the frame leaves them their width, and their places follow from the frame.
     const steps = roundSteps(low, high, Math.max(2, Math.floor((h - 28) / 34)))
-    f = flat(w, h, room(steps), name)
-    const times = roundSteps(start, end, Math.max(2, Math.floor((f.right - f.left) / 42)))
-    axes(c, f, ticks(times, x), ticks(steps, y), { x: text.map.time, y: name })
-    c.save()
-    c.beginPath()
-    c.rect(f.left, f.top - 1, f.right - f.left, f.bottom - f.top + 2)
-    c.clip()
-    c.lineJoin = 'round'
-    const first = before(time, start)
-    lines.forEach((line, k) => {
-      const own = values[k]
-      c.strokeStyle = line.colour
-      c.lineWidth = line.width ?? 1.75
-      c.setLineDash((line.dash ?? []) as number[])
-      c.beginPath()
-      if (typeof own === 'number') {
-        c.moveTo(f.left, y(own))
-        c.lineTo(f.right, y(own))
-      } else if (own) trace(c, time, own, first, x, y)
-      c.stroke()
-    })
-    c.restore()
+    const f = (plot.frame = flat(w, h, labelWidth(steps), name))
+    const times = roundSteps(...plot.window, Math.max(2, Math.floor((f.right - f.left) / 42)))
+    axes(c, f, ticks(times, plot.x), ticks(steps, plot.y), { x: text.map.time, y: name })
+    drawLines(c, plot)
     if (tip.hidden) return
-    const at = row()
-    const px = Math.round(x(time[at]!)) + 0.5
-    c.strokeStyle = style('--soft')
-    c.lineWidth = 1
-    c.beginPath()
-    c.moveTo(px, f.top)
-    c.lineTo(px, f.bottom)
-    c.stroke()
-    c.strokeStyle = style('--card')
-    lines.forEach((line, k) => {
-      const v = value(k, at)
-      if (typeof values[k] === 'number' || Number.isNaN(v)) return
-      c.fillStyle = line.colour
-      c.beginPath()
-      c.arc(px, y(v), 3.5, 0, 7)
-      c.fill()
-      c.stroke()
-    })
-    when.textContent = moment(at)
-    names.forEach((name, k) => (name.textContent = reading(k, at)))
-    // Beside the cursor, on the side with more room.
+    const row = plot.row()
+    const px = Math.round(plot.x(time[row]!)) + 0.5
+    drawCursor(c, plot, row, px)
+    when.textContent = plot.moment(row)
+    names.forEach((name, k) => (name.textContent = plot.reading(k, row)))
+    // Beside the cursor, on the side with more space.
     const wide = tip.offsetWidth
     tip.style.left = `${Math.max(0, Math.min(w - wide, px < w / 2 ? px + 10 : px - 10 - wide))}px`
   })
-
-  /** Puts the cursor somewhere and, for who cannot see it, says what it reads. */
-  const put = (place: number | null, spoken = false) => {
-    cursor = place === null ? null : Math.min(1, Math.max(0, place))
-    if (spoken && cursor !== null && time.length > 0) {
-      const at = row()
+  listen(element, canvas, plot, (place, spoken) => {
+    const { time, lines } = plot
+    plot.cursor = place === null ? null : Math.min(1, Math.max(0, place))
+    if (spoken && place !== null && time.length > 0) {
+      const row = plot.row()
       element.setAttribute('aria-valuemax', fixed(time.at(-1)!, 2))
-      element.setAttribute('aria-valuenow', fixed(time[at]!, 2))
-      element.setAttribute('aria-valuetext', `${moment(at)}: ${lines.map((_, k) => reading(k, at)).join(', ')} ${name}`.trim())
+      element.setAttribute('aria-valuenow', fixed(time[row]!, 2))
+      element.setAttribute('aria-valuetext', `${plot.moment(row)}: ${lines.map((_, k) => plot.reading(k, row)).join(', ')} ${name}`.trim())
     }
     redraw()
-  }
-  const point = (event: PointerEvent) =>
-    put((event.clientX - canvas.getBoundingClientRect().left - f.left) / Math.max(1, f.right - f.left))
-  element.addEventListener('pointermove', point)
-  element.addEventListener('pointerdown', event => {
-    point(event)
-    element.focus({ preventScroll: true })
-  })
-  // A finger that has gone leaves the reading, which it covered.
-  element.addEventListener('pointerleave', event => event.pointerType === 'mouse' && put(null))
-  element.addEventListener('focus', () => put(cursor ?? 1, true))
-  element.addEventListener('blur', () => put(null))
-  element.addEventListener('keydown', event => {
-    const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -20, PageUp: 20, Home: -1e9, End: 1e9 }[event.key]
-    if (by === undefined || time.length === 0 || event.ctrlKey || event.metaKey || event.altKey) return
-    event.preventDefault()
-    cursor ??= 1
-    const next = Math.min(time.length - 1, Math.max(0, row() + by))
-    put((time[next]! - start) / (end - start), true)
   })
   return {
     element,
-    show(nextTime, nextValues, window, nextLow, nextHigh) {
-      time = nextTime
-      values = nextValues
-      ;[start, end] = window
-      low = nextLow
-      high = nextHigh
+    show(time, values, window, low, high) {
+      Object.assign(plot, { time, values, window, low, high })
       redraw()
     },
-    restyle(next) {
-      lines = next
+    restyle(lines) {
+      plot.lines = lines
       const list = keys(lines)
       names = [...list.children] as HTMLElement[]
       // The values stand in a column of their own.
@@ -239,18 +204,3 @@ export function chart(label: string, name: string, digits: number): Chart {
     },
   }
 }
-
-/** Names of the lines, each with a piece of it. */
-export const keys = (lines: readonly Line[]): HTMLElement =>
-  el('div', { class: 'keys' }, ...lines.map(line => el('span', { style: `--piece:${piece(line)}` }, line.label)))
-
-/** The pattern of a line as a background. */
-function piece({ colour, dash = [] }: Line): string {
-  let at = 0
-  const stops = dash.map((length, k) => `${k % 2 === 0 ? colour : '#0000'} ${at}px ${(at += length)}px`)
-  return stops.length === 0 ? `linear-gradient(${colour} 0 0)` : `repeating-linear-gradient(90deg,${stops.join()})`
-}
-
-/** Line colours that colour-blind eyes tell apart (after Okabe and Ito), for either ground. */
-export const palette = (dark: boolean): readonly string[] =>
-  dark ? ['#7cc4f5', '#f0a941', '#4fd0a5', '#f08bc1', '#e6e04e'] : ['#0064a6', '#b45f00', '#007a57', '#b13a80', '#5a4fb0']

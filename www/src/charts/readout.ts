@@ -1,13 +1,11 @@
-// Reading values off a picture: the nearest point of the nearest curve, or the cell of a map; by pointer, by touch,
-// and by the keyboard. What can be read and where it lies comes from the core; here it is only found.
+// Reads values off a picture of a figure, by pointer, touch or keyboard: the nearest point of the nearest curve, or the cell of a
+// map. The values and their places in the picture come from the core; this file finds the one that is meant.
 import { el } from '../ui/dom'
-import { significant } from '../text/format'
+import { significant } from '../text/significant'
 import type { Field, Mark } from '../core/protocol'
-import { text } from '../text'
+import { figuresText as t } from '../text/figures'
 
-const t = text.figures
-
-/** A point of a curve or a cell of a map: panel, mark within it, and which. */
+/** A point of a curve or a cell of a map: the index of its panel, of the mark in the panel, and of the point or cell in the mark. */
 interface Place {
   readonly field: number
   readonly mark: number
@@ -27,21 +25,21 @@ const rows = (mark: Mark & { kind: 'map' }): number => mark.values.length / mark
 const centre = ([first, last]: readonly [number, number], k: number, n: number): number =>
   n > 1 ? first + ((last - first) * k) / (n - 1) : first
 
-/** The cell of n in which a place lies; outside, none. */
+/** The cell, of n between two ends, in which a place lies; null outside. */
 function cell([from, to]: readonly [number, number], n: number, place: number): number | null {
   const k = Math.floor(((place - from) / (to - from)) * n)
   return k >= 0 && k < n ? k : null
 }
 
-/** Square of the distance from a point to the stretch between a and b. */
-function toStretch(x: number, y: number, ax: number, ay: number, bx: number, by: number): number {
+/** Square of the distance from (x, y) to the line segment from a to b. */
+function toSegment(x: number, y: number, ax: number, ay: number, bx: number, by: number): number {
   const [dx, dy] = [bx - ax, by - ay]
   const length = dx * dx + dy * dy
   const u = length === 0 ? 0 : Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / length))
   return (x - ax - u * dx) ** 2 + (y - ay - u * dy) ** 2
 }
 
-/** What is nearest to a place of the picture within the axes around it. */
+/** The point or cell nearest to (x, y), in the panel that holds it; null outside all panels. */
 export function nearest(fields: readonly Field[], x: number, y: number): Place | null {
   const field = fields.findIndex(f => x >= f.left && x <= f.left + f.width && y >= f.top && y <= f.top + f.height)
   if (field < 0) return null
@@ -58,7 +56,7 @@ export function nearest(fields: readonly Field[], x: number, y: number): Place |
     right.forEach((px, k) => {
       const py = down[k]!
       const before = Math.max(0, k - 1)
-      toCurve = Math.min(toCurve, toStretch(x, y, right[before]!, down[before]!, px, py))
+      toCurve = Math.min(toCurve, toSegment(x, y, right[before]!, down[before]!, px, py))
       const distance = (x - px) ** 2 + (y - py) ** 2
       if (distance < toPoint) [toPoint, at] = [distance, k]
     })
@@ -70,7 +68,7 @@ export function nearest(fields: readonly Field[], x: number, y: number): Place |
   return best
 }
 
-/** One step by a key from where one is; null for a key that means nothing here. */
+/** The place that a key leads to from `at`; null for a key without a meaning here. */
 export function step(fields: readonly Field[], at: Place | null, key: string): Place | null {
   const all = fields.flatMap((f, field) => f.marks.map((m, mark) => ({ field, mark, count: m.kind === 'map' ? m.values.length : m.x.length }))).filter(m => m.count > 0)
   const first = all[0]
@@ -80,7 +78,7 @@ export function step(fields: readonly Field[], at: Place | null, key: string): P
   const { count } = all[here]!
   const mark = fields[at.field]!.marks[at.mark]!
   const along = (k: number) => ({ ...at, k: Math.min(count - 1, Math.max(0, k)) })
-  /** The curve before or after: at the abscissa where one was, or the start of another panel. */
+  /** Another mark: at the nearest x if both are curves of one panel, else at its start. */
   const to = (next: (typeof all)[number] | undefined): Place => {
     if (!next) return at
     const other = fields[next.field]!.marks[next.mark]!
@@ -111,7 +109,7 @@ export function step(fields: readonly Field[], at: Place | null, key: string): P
   }
 }
 
-/** What stands at a place, in words. */
+/** The value at a place, in words. */
 export function words(fields: readonly Field[], { field, mark: m, k }: Place): string {
   const { title, x, y, marks } = fields[field]!
   const mark = marks[m]!
@@ -126,7 +124,7 @@ export function words(fields: readonly Field[], { field, mark: m, k }: Place): s
   return t.point(title, mark.name, x, number(mark.x[k]!), y, number(mark.y[k]!) + interval)
 }
 
-/** Shows in the picture where that is: a ring, or the frame of a cell. */
+/** Marks a place in the picture: a circle around a point, or a frame around a cell. */
 function pointer(fields: readonly Field[], { field, mark: m, k }: Place): SVGElement {
   const mark = fields[field]!.marks[m]!
   const look = { fill: 'none', stroke: '#1c2430', 'stroke-width': 2, class: 'pointer' }
@@ -137,18 +135,18 @@ function pointer(fields: readonly Field[], { field, mark: m, k }: Place): SVGEle
   return shape('rect', { ...look, x, y, width: wide + 2, height: high + 2 })
 }
 
-/** A picture in which values can be read, with the line that tells them. */
+/** A picture in which values can be read, and the line below it that shows them. */
 export function readable(name: string, picture: SVGSVGElement, fields: readonly Field[]): HTMLElement[] {
   const reading = el('p', { class: 'reading' }, t.hint)
-  // Told by the keyboard alone: a pointer that wanders would drown everything else.
+  // For screen readers, and only for values reached by keys: a moving pointer would make them read without end.
   const told = el('p', { class: 'hidden', role: 'status' })
   let at: Place | null = null
-  let ring: SVGElement | null = null
+  let marked: SVGElement | null = null
 
   const show = (place: Place | null, tell = false) => {
     at = place
-    ring?.remove()
-    ring = place && picture.appendChild(pointer(fields, place))
+    marked?.remove()
+    marked = place && picture.appendChild(pointer(fields, place))
     reading.textContent = place ? words(fields, place) : t.hint
     told.textContent = tell && place ? reading.textContent : ''
   }
@@ -160,7 +158,7 @@ export function readable(name: string, picture: SVGSVGElement, fields: readonly 
   }
   picture.addEventListener('pointermove', point)
   picture.addEventListener('pointerdown', point)
-  // A finger that is lifted leaves what it has found.
+  // When a finger is lifted, the value stays.
   picture.addEventListener('pointerleave', event => event.pointerType === 'mouse' && show(null))
 
   const plot = el(
@@ -179,16 +177,16 @@ export function readable(name: string, picture: SVGSVGElement, fields: readonly 
         event.preventDefault()
         event.stopPropagation()
         show(next, true)
-        // A narrow screen shows a part of the picture.
-        if (ring) {
-          const [box, frame] = [ring.getBoundingClientRect(), plot.getBoundingClientRect()]
+        // On a narrow screen only a part of the picture is visible.
+        if (marked) {
+          const [box, frame] = [marked.getBoundingClientRect(), plot.getBoundingClientRect()]
           if (box.left < frame.left + 20 || box.right > frame.right - 20) plot.scrollLeft += (box.left + box.right - frame.left - frame.right) / 2
         }
       },
     },
     picture,
   )
-  // A picture wider than the screen fades where it goes on.
+  // A picture wider than the screen fades at the edge where there is more of it.
   const more = () => void plot.classList.toggle('more', plot.scrollLeft + plot.clientWidth < plot.scrollWidth - 1)
   plot.addEventListener('scroll', more)
   new ResizeObserver(more).observe(plot)

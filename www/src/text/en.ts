@@ -1,19 +1,20 @@
-// Every text that a person reads on the page. The core's refusals come as they are; a second language is a
-// second object of this type.
+// Every text of the page, in English; a second language is a second object of this type. The core's refusals are shown in the
+// core's own words.
 import { exactly, fixed, span, unit } from './format'
 import type { Growth, Verdict } from '../core/protocol'
 
 const seconds = (s: number) => unit(fixed(s, 3), 's')
-/** A critical reaction time; none where every one is stable. */
+/** A critical reaction time (s); null: every reaction time is stable. */
 const tau = (s: number | null) => (s === null ? '–' : s >= 1000 ? unit('over 1000', 's') : unit(exactly(s, s < 10 ? 3 : s < 100 ? 1 : 0), 's'))
 /** Two significant digits. */
 const short = (x: number) => String(Number(x.toPrecision(2)))
 const jams = (n: number) => (n === 1 ? '1 jam' : `${n} jams`)
-const pace = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
-/** The same as a range, unless it is known to a twentieth: what the waves' size may have done, and the scatter. */
+const growth = (rate: number) => `${rate > 0 ? 'doubles' : 'halves'} every ${span(Math.LN2 / Math.abs(rate))}`
+/** The same as a range, unless the error is below a twentieth of the rate: the error is the bound on what is not linear and two
+ * standard errors. */
 function within({ rate, nonlinear_bound, standard_error }: Growth): string {
   const error = nonlinear_bound + 2 * standard_error
-  if (error < 0.05 * Math.abs(rate)) return pace(rate)
+  if (error < 0.05 * Math.abs(rate)) return growth(rate)
   if (nonlinear_bound >= Math.abs(rate)) return 'waves too large to tell'
   if (error >= Math.abs(rate)) return 'not clear yet'
   const [fast, slow] = [error, -error].map(e => span(Math.LN2 / (Math.abs(rate) + e)))
@@ -45,13 +46,13 @@ export const en = {
     close: 'Close',
   },
 
-  trouble: {
+  problem: {
     title: 'That did not work',
     over: 'The run ended in a collision: go back first.',
     dismiss: 'Dismiss',
   },
 
-  verdict: {
+  summary: {
     stable: 'Stable',
     unstable: 'Unstable',
     open: 'No wave',
@@ -73,8 +74,8 @@ export const en = {
     wave: (v: Verdict): string => {
       if (v.stable === null || v.rate === null || v.mode === null || v.rate === 0) return ''
       return v.stable
-        ? `Its slowest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
-        : `Its fastest wave, ${jams(v.mode)}, ${pace(v.rate)}.`
+        ? `Its slowest wave, ${jams(v.mode)}, ${growth(v.rate)}.`
+        : `Its fastest wave, ${jams(v.mode)}, ${growth(v.rate)}.`
     },
     lane: (lane: number): string => `Lane ${lane}:`,
     measured: (g: Growth, large: boolean): string => {
@@ -119,11 +120,11 @@ export const en = {
     note: { difference: 'speed against v∞, log scale', speed: 'speed' },
     canvas: 'Space-time map: position upwards, time to the right.',
     position: 'position (m)',
-    riding: 'position, riding along (m)',
+    coMovingPosition: 'position, riding along (m)',
     time: 'time (s)',
     lane: 'Lane',
-    ride: 'Ride along',
-    rideHint: 'Move with the equilibrium speed v∞',
+    coMoving: 'Ride along',
+    coMovingHint: 'Move with the equilibrium speed v∞',
     reading: (t: number, x: number, v: number, d: number): string =>
       `t = ${unit(exactly(t, 1), 's')}, x = ${unit(fixed(x, 0), 'm')}: ${unit(exactly(v, 2), 'm/s')} (${d >= 0 ? '+' : ''}${exactly(d, Math.abs(d) < 0.1 ? 3 : 2)})`,
   },
@@ -231,88 +232,31 @@ export const en = {
     clear: 'Restart without them',
     clearHint: 'Keeps what belongs to t = 0',
     at: (t: string): string => `${t} s`,
-    vehicle: (who: string): string => (who === 'all' ? 'all cars' : /^\d+$/.test(who) ? `car ${who}` : who.endsWith('%') ? `${who} of the cars` : `cars ${who}`),
+    vehicles: (selector: string): string =>
+      selector === 'all' ? 'all cars' : /^\d+$/.test(selector) ? `car ${selector}` : selector.endsWith('%') ? `${selector} of the cars` : `cars ${selector}`,
     brake: (s: string): string => `brake for ${s} s`,
     nudge: (m: string): string => `nudge by ${m} m`,
     add: 'Add',
     addLabel: 'Do now, such as 7:brake=3',
   },
 
-  share: {
-    title: 'Share',
-    link: 'Link to this experiment, with everything done so far',
-    embed: 'HTML for a course page',
-    copy: 'Copy',
-    copied: 'Copied',
-    select: 'Selected: press Ctrl+C',
-    disk: 'This page was opened from disk: put its file on a web server first, beside the course page.',
-    shortcut: 'The link holds only what differs from the default.',
-  },
-
-  files: {
-    title: 'Data',
-    export: 'Save the run so far as CSV',
-    table: 'Table',
-    tables: {
-      trajectories: 'Trajectories of all vehicles',
-      'speed-map': 'Space-time map of speed',
-      speeds: 'Speeds of the watched cars',
-      'flow-map': 'Space-time map of flow',
-      flow: 'Flow at L/2',
-      events: 'Lane changes, passes, collision',
-      lanes: 'Vehicles per lane',
-      growth: 'Growth of each mode',
-    } as Record<string, string>,
-    every: 'A row every',
-    save: 'Save CSV',
-    show: 'Show as text',
-    cancel: 'Cancel',
-    scenario: 'Save the scenario (JSON)',
-    open: 'Open a scenario (JSON) or a saved table (CSV)',
-    made: (name: string, kb: string): string => `${name}, ${kb} kB`,
-    running: (part: number): string => `Repeating the run: ${fixed(100 * part, 0)} %`,
-    cancelled: 'Cancelled.',
-    opened: (name: string): string => `${name} is open.`,
-    note: 'The file names the scenario and the program’s version; the command gives the same bytes.',
-  },
-
-  help: {
-    title: 'Help',
-    what: 'Cars on a ring road follow each other, and every driver reacts a little late. Below a critical reaction time every disturbance fades; above it the smallest one grows into jams that travel backwards. The page says where the threshold lies before the traffic shows it.',
-    keys: [
-      ['Space', 'play or pause'],
-      ['.', 'one step'],
-      ['R', 'restart, keeping the actions'],
-      ['N', 'nudge the watched car'],
-      ['B', 'brake the watched car'],
-      ['← →', 'move a slider; on the ring: choose a car'],
-      ['?', 'this help'],
-    ] as readonly (readonly [string, string])[],
-    threshold:
-      'The tolerated reaction time holds for the run, which goes in time steps; τ beside it is that of continuous time.',
-    reading:
-      'In the map every row of the road is a line of time: blue where cars are slower than the equilibrium speed v∞, amber where they are faster, on a logarithmic scale from 1 cm/s to 10 m/s. Stripes that fall to the right are jams that move against the traffic.',
-    version: (v: string, place: 'worker' | 'page'): string =>
-      `Version ${v}; the core runs in ${place === 'worker' ? 'a worker' : 'the page itself'}.`,
-  },
-
   live: {
     state: (t: number, mean: number, slowest: number, fastest: number): string =>
       `${fixed(t, 0)} seconds. Mean speed ${exactly(mean, 1)} metres per second, from ${exactly(slowest, 1)} to ${exactly(fastest, 1)}.`,
-    jams: (slow: number): string =>
-      slow === 0 ? 'Nobody stands.' : slow === 1 ? 'One car stands.' : `${slow} cars stand.`,
+    standing: (count: number): string =>
+      count === 0 ? 'Nobody stands.' : count === 1 ? 'One car stands.' : `${count} cars stand.`,
     playing: 'Playing.',
     paused: 'Paused.',
   },
 
-  plane: {
+  diagram: {
     title: 'Where waves grow',
     stable: 'stable',
     unstable: 'unstable',
     jam: 'jam',
-    /** The lane where there are several, else null. */
+    /** `lane`: its number where there are several, else null. */
     vehicles: (lane: number | null): string => (lane === null ? 'vehicles N' : `vehicles in lane ${lane}`),
-    /** Where a colour bar stands beside it. */
+    /** Shorter, for beside the colour bar. */
     vehiclesShort: (lane: number | null): string => (lane === null ? 'vehicles N' : `N in lane ${lane}`),
     reaction: 'reaction time Δ (s)',
     handle: 'Vehicles and reaction time',
@@ -323,17 +267,17 @@ export const en = {
     value: (n: number, lane: number | null, delta: number, state: string): string =>
       `${n} vehicles${lane === null ? '' : ` in lane ${lane}`}, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
     drag: 'drag the point',
-    /** A curve and its value at the point's N. */
+    /** The curves, each with its value at the point's N (s). */
     discrete: (s: number | null): string => `τ in steps: ${tau(s)}`,
     continuous: (s: number | null): string => `τ continuous: ${tau(s)}`,
     newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
     describe: (n: number, lane: number | null, discrete: number | null, continuous: number | null, newell: number | null): string =>
       `The plane of vehicles${lane === null ? '' : ` in lane ${lane}`} and reaction time. ${discrete === null && continuous === null ? `With ${n} vehicles nothing moves: a jam.` : `With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`}`,
-    /** Where drivers differ. */
+    /** For heterogeneous drivers. */
     titleAlike: 'If drivers were alike',
     alike: 'The drivers of this ring differ. The plane is for drivers alike: those without an exception.',
-    ground: 'What the plane shows',
-    grounds: { regions: 'regions', steps: 'in steps', continuous: 'continuous' },
+    shading: 'What the plane shows',
+    shadings: { regions: 'regions', steps: 'in steps', continuous: 'continuous' },
     rates: 'growth rate',
     every: 'modes',
     everyHint: 'The critical reaction time of every single mode: of the run’s steps, or of continuous time with its growth rate',
@@ -381,49 +325,6 @@ export const en = {
     one: (mode: number, rate: number, predicted: number | null): string =>
       `mode ${mode}: ${exactly(rate, 4)}${predicted === null ? '' : ` against ${exactly(predicted, 4)}`}`,
     describe: (list: string): string => (list === '' ? 'Growth of each mode: nothing measured yet.' : `Growth per second, measured against theory: ${list}.`),
-  },
-
-  figures: {
-    title: 'The paper, figure by figure',
-    intro:
-      'Every figure is computed here, in this browser, and what the paper claims is held against what comes out. A verdict is computed, too: from the value, its uncertainty and the tolerance of the row.',
-    all: 'Run all',
-    run: 'Run',
-    again: 'Run again',
-    runLabel: (title: string): string => `Run: ${title}`,
-    cancel: 'Cancel',
-    cancelAll: 'Cancel all',
-    cancelLabel: (title: string): string => `Cancel: ${title}`,
-    beyond: 'beyond the paper',
-    starting: 'Starting …',
-    waiting: 'Waiting for the figure before it.',
-    running: (done: number, of: number): string => `${done} of ${of} pieces of work`,
-    assembling: 'Putting it together …',
-    done: (seconds: number, workers: number): string =>
-      `Done in ${span(seconds)}${workers === 0 ? '' : workers === 1 ? ', one worker' : `, ${workers} workers`}.`,
-    cancelled: 'Cancelled.',
-    failed: (why: string): string => `That did not work: ${why}`,
-    progress: (title: string): string => `Progress: ${title}`,
-    plot: (title: string): string => `Picture: ${title}`,
-    save: 'Save',
-    noClaims: 'The paper claims nothing here.',
-    columns: { claim: 'Claim', paper: 'Paper', ours: 'Ours', verdict: 'Verdict', method: 'How it was measured' },
-    verdicts: { agrees: 'agrees', differs: 'differs', open: 'not determined by the paper' },
-    symbols: { agrees: '✓', differs: '✗', open: '?' },
-    summary: (agree: number, differ: number, open: number): string => {
-      const words = (n: number, one: string, many: string) => `${n} ${n === 1 ? one : many}`
-      const all = words(agree + differ + open, 'claim', 'claims')
-      return `${all}: ${words(agree, 'agrees', 'agree')}, ${words(differ, 'differs', 'differ')}, ${open} not determined by the paper.`
-    },
-    point: (panel: string, name: string, x: string, atX: string, y: string, atY: string): string =>
-      `${panel}${name === '' ? '' : `, ${name}`} · ${x}: ${atX} · ${y}: ${atY}`,
-    interval: (low: string, high: string): string => ` (${low} to ${high})`,
-    cell: (panel: string, x: string, atX: string, y: string, atY: string, name: string, value: string): string =>
-      `${panel} · ${x}: ${atX} · ${y}: ${atY} · ${name}: ${value}`,
-    noValue: 'none',
-    kind: 'picture with values to read',
-    keys: 'Left and right go along a curve, up and down to another curve; in a map they go from cell to cell. Page up and page down go to another panel, Escape leaves.',
-    hint: 'Point at the picture, or tap it, to read values; or go to it with Tab and press the arrow keys.',
   },
 }
 

@@ -1,4 +1,4 @@
-// Numbers as people read them: as many digits as mean something.
+// Numbers as people read them, with the digits that are known or needed.
 
 /** At most so many decimals, without trailing zeros; a true minus sign. */
 export function fixed(value: number, decimals: number): string {
@@ -7,21 +7,16 @@ export function fixed(value: number, decimals: number): string {
   return (short === '-0' ? '0' : short).replace('-', '\u2212')
 }
 
+/** How many decimals a slider with this step needs. */
+export const decimals = (step: number): number => Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) - 1e-9)))
+
 /** Always so many decimals. */
 export const exactly = (value: number, decimals: number): string => value.toFixed(decimals).replace('-', '\u2212')
 
-/** So many significant digits, without trailing zeros; very large and very small ones with a power of ten. */
-export function significant(value: number, digits: number): string {
-  const text = value.toPrecision(digits)
-  if (!text.includes('e')) return fixed(Number(text), Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value) || 1))))
-  const [mantissa, power] = text.split('e')
-  return `${fixed(Number(mantissa), digits)}e${Number(power)}`.replace('e-', 'e\u2212')
-}
-
-/** A number with its unit, apart by a narrow no-break space. */
+/** A number and its unit, with a narrow no-break space between them. */
 export const unit = (value: string, of: string): string => (of === '' ? value : `${value}\u202f${of}`)
 
-/** A span of time that people can picture. */
+/** A span of time (s) in seconds, minutes, hours or days. */
 export function span(seconds: number): string {
   if (seconds < 9.95) return unit(fixed(seconds, 1), 's')
   if (seconds < 180) return unit(fixed(seconds, 0), 's')

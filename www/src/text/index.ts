@@ -1,4 +1,4 @@
-// The language of the page.
+// The language of the page: another language is another dictionary here.
 import { type Dictionary, en } from './en'
 
 export const text: Dictionary = en

@@ -1,16 +1,16 @@
-// A field for a number, and what is said of one that cannot be.
+// A field for a number, and the sentence that refuses a number that is not allowed.
 import { el } from './dom'
 
-/** A decimal comma typed or pasted into a number field becomes a point: browsers drop it without a word where the
- * language writes a point, and 0,4 would be 4. */
+/** A decimal comma that is typed or pasted becomes a point. Where the language of the page writes a point, browsers drop the comma
+ * silently: 0,4 would become 4. */
 function comma(event: InputEvent): void {
-  // Two commas, or a comma and a point, part thousands.
+  // Two commas, or a comma and a point, separate thousands: left to the browser.
   if (!/^[^.,]*,[^.,]*$/.test(event.data ?? '')) return
   event.preventDefault()
   document.execCommand('insertText', false, event.data!.replace(',', '.'))
 }
 
-/** `wrong` stands where the page wants the sentence; `complain` puts it there, and an empty one takes it away. */
+/** `wrong` is the element of the sentence, which the caller places; `complain` shows a sentence there, an empty one hides it. */
 export function numberField(props: Parameters<typeof el>[1] & { id: string }) {
   const wrong = el('div', { class: 'wrong', id: `${props.id.replace(/-number$/, '')}-wrong`, role: 'alert', hidden: true })
   const number = el('input', { type: 'number', step: 'any', inputmode: 'decimal', 'aria-describedby': wrong.id, onbeforeinput: comma, ...props })

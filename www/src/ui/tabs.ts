@@ -1,5 +1,5 @@
-// Several views in one place, one at a time.
-import { el } from './dom'
+// Tabs: several views in one place, of which one is visible; the arrow keys go from tab to tab.
+import { button, el } from './dom'
 import { text } from '../text'
 
 export function tabs(views: readonly { id: string; name: string; panel: HTMLElement }[]): HTMLElement {
@@ -8,7 +8,7 @@ export function tabs(views: readonly { id: string; name: string; panel: HTMLElem
     panel.setAttribute('role', 'tabpanel')
     panel.setAttribute('aria-labelledby', `tab-${id}`)
     panel.tabIndex = 0
-    return el('button', { type: 'button', role: 'tab', id: `tab-${id}`, 'aria-controls': `panel-${id}`, onclick: () => choose(id) }, name)
+    return button({ role: 'tab', id: `tab-${id}`, 'aria-controls': `panel-${id}`, onclick: () => choose(id) }, name)
   })
   const choose = (id: string) => {
     views.forEach((view, k) => {
@@ -20,10 +20,10 @@ export function tabs(views: readonly { id: string; name: string; panel: HTMLElem
   }
   const list = el('div', { role: 'tablist', 'aria-label': text.tabs.label }, ...buttons)
   list.addEventListener('keydown', event => {
-    const way = { ArrowRight: 1, ArrowLeft: -1 }[event.key]
-    if (way === undefined) return
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key]
+    if (by === undefined) return
     const now = buttons.findIndex(b => b.tabIndex === 0)
-    const next = (now + way + views.length) % views.length
+    const next = (now + by + views.length) % views.length
     choose(views[next]!.id)
     buttons[next]!.focus()
   })

@@ -1,5 +1,5 @@
-// What was done to the traffic, in words; each can be taken back.
-import { el } from '../ui/dom'
+// The list of actions in words, each with a button that takes it back, and a field for another one.
+import { button, el } from '../ui/dom'
 import { unit } from '../text/format'
 import type { Session } from '../app/session'
 import type { Parameter } from '../core/protocol'
@@ -7,9 +7,9 @@ import { text } from '../text'
 
 const t = text.actions
 
-/** `at=40:7:brake=3` in words; units come from the core's table. */
+/** An action such as `at=40:7:brake=3` in words; the units come from the core's table of parameters. */
 export function inWords(action: string, parameters: readonly Pick<Parameter, 'name' | 'unit'>[]): { when: string; what: string } {
-  const [, at = '', who = '', effects = ''] = /^at=([^:]*):([^:]*):(.*)$/.exec(action) ?? []
+  const [, at = '', selector = '', effects = ''] = /^at=([^:]*):([^:]*):(.*)$/.exec(action) ?? []
   const one = (effect: string): string => {
     const [name = '', value = ''] = effect.split('=')
     if (name === 'brake') return t.brake(value)
@@ -17,13 +17,13 @@ export function inWords(action: string, parameters: readonly Pick<Parameter, 'na
     const own = name.replaceAll('-', '_')
     return `${(text.controls.names[own] ?? name).toLowerCase()} ${unit(value, parameters.find(p => p.name === own)?.unit ?? '')}`
   }
-  return { when: t.at(at), what: `${t.vehicle(who)}: ${effects.split(',').map(one).join(', ')}` }
+  return { when: t.at(at), what: `${t.vehicles(selector)}: ${effects.split(',').map(one).join(', ')}` }
 }
 
 export function actionsView(session: Session): HTMLElement {
   const list = el('ul', { class: 'actions' })
   const none = el('p', {}, t.none)
-  const clear = el('button', { type: 'button', id: 'clear', title: t.clearHint, onclick: () => void session.restart(false) }, t.clear)
+  const clear = button({ id: 'clear', title: t.clearHint, onclick: () => void session.restart(false) }, t.clear)
   const input = el('input', { type: 'text', id: 'do', placeholder: '7:brake=3', 'aria-label': t.addLabel, style: 'flex:1;width:auto' })
   const form = el(
     'form',
@@ -51,7 +51,7 @@ export function actionsView(session: Session): HTMLElement {
           {},
           el('span', { class: 'when' }, when),
           el('span', {}, what),
-          el('button', { type: 'button', 'aria-label': t.remove(`${when}, ${what}`), onclick: () => void session.remove(index) }, '✕'),
+          button({ 'aria-label': t.remove(`${when}, ${what}`), onclick: () => void session.remove(index) }, '✕'),
         )
       }),
     )

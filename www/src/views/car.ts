@@ -1,4 +1,4 @@
-// The watched car: what it does, and what can be changed about its driver.
+// The tab of the watched vehicle: its state now, and parameters that can be set for its driver alone.
 import { el } from '../ui/dom'
 import { exactly, fixed, unit } from '../text/format'
 import type { Session } from '../app/session'
@@ -6,7 +6,7 @@ import { text } from '../text'
 import { numberField } from '../ui/number_field'
 
 const t = text.car
-/** Parameters that are offered for one driver. */
+/** Parameters that can be set for one driver. */
 const OWN = ['reaction_time', 'sensitivity', 'max_speed']
 
 export function carView(session: Session): HTMLElement {

@@ -1,12 +1,12 @@
-// The head of the page: its name, the experiments, and the doors to sharing, data and help.
-import { el } from '../ui/dom'
+// The head of the page: its name, the list of presets, and the buttons that open the dialogs and the figures.
+import { button, el } from '../ui/dom'
 import type { Session } from '../app/session'
 import { text } from '../text'
 
 const t = text.header
 
-/** Four corners. */
-function icon(): SVGElement {
+/** Four corners, for the button of the full screen. */
+function fullScreenIcon(): SVGElement {
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg')
   svg.setAttribute('viewBox', '0 0 16 16')
   svg.setAttribute('width', '15')
@@ -20,16 +20,17 @@ function icon(): SVGElement {
   return svg
 }
 
-export function headerView(session: Session, dialogs: { share: HTMLDialogElement; files: HTMLDialogElement; help: HTMLDialogElement; figures: HTMLElement }): { element: HTMLElement; note: HTMLElement } {
+/** `open` opens a dialog; `figures` is the link to the paper's figures. */
+export function headerView(session: Session, open: (dialog: 'share' | 'files' | 'help') => void, figures: HTMLElement): { element: HTMLElement; note: HTMLElement } {
   const words = el('p')
-  const note = el('div', { id: 'preset', role: 'status', hidden: true }, words, el('button', { type: 'button', 'aria-label': t.close, onclick: () => (note.hidden = true) }, '✕'))
+  const note = el('div', { id: 'preset', role: 'status', hidden: true }, words, button({ 'aria-label': t.close, onclick: () => (note.hidden = true) }, '✕'))
   const presets = el(
     'select',
     {
       id: 'presets',
       'aria-label': t.presets,
       onchange: async () => {
-        if (presets.value !== '' && (await session.preset(presets.value))) session.play()
+        if (presets.value !== '' && (await session.preset(presets.value))) session.playback.play()
         presets.value = opened
       },
     },
@@ -37,23 +38,22 @@ export function headerView(session: Session, dialogs: { share: HTMLDialogElement
     ...session.start.presets.map(p => el('option', { value: p.name }, p.title)),
   )
   let opened = ''
-  /** What is open, but for its end, which going on moves. */
-  const open = () => JSON.stringify({ ...session.snapshot.scenario, until: 0 })
-  let holds = ''
-  // An experiment that was changed is not that experiment any more.
+  /** The scenario without its end, which moves when the run is extended. */
+  const scenario = () => JSON.stringify({ ...session.snapshot.scenario, until: 0 })
+  let unchanged = ''
+  // A preset that was changed is not that preset any more.
   session.on('snapshot', () => {
-    if (opened === '' || open() === holds) return
+    if (opened === '' || scenario() === unchanged) return
     presets.value = opened = ''
     note.hidden = true
   })
   session.on('opened', name => {
     presets.value = opened = name
-    holds = open()
+    unchanged = scenario()
     const preset = session.start.presets.find(p => p.name === name)
     note.hidden = !preset
     if (preset) words.replaceChildren(el('strong', {}, `${preset.title}. `), `${preset.notice} `, el('em', {}, `${t.next} `), preset.next)
   })
-  const door = (dialog: HTMLDialogElement) => () => dialog.showModal()
   const full = () => void (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen()).catch(() => {})
   const element = el(
     'header',
@@ -61,11 +61,11 @@ export function headerView(session: Session, dialogs: { share: HTMLDialogElement
     el('h1', {}, text.title),
     el('span', { class: 'subtitle' }, text.subtitle),
     presets,
-    el('button', { type: 'button', id: 'open-share', onclick: door(dialogs.share) }, t.share),
-    el('button', { type: 'button', id: 'open-files', onclick: door(dialogs.files) }, t.files),
-    dialogs.figures,
-    document.fullscreenEnabled ? el('button', { type: 'button', class: 'wide-only', 'aria-label': t.fullscreen, title: t.fullscreen, onclick: full }, icon()) : null,
-    el('button', { type: 'button', id: 'open-help', 'aria-label': t.help, onclick: door(dialogs.help) }, '?'),
+    button({ id: 'open-share', onclick: () => open('share') }, t.share),
+    button({ id: 'open-files', onclick: () => open('files') }, t.files),
+    figures,
+    document.fullscreenEnabled ? button({ class: 'wide-only', 'aria-label': t.fullscreen, title: t.fullscreen, onclick: full }, fullScreenIcon()) : null,
+    button({ id: 'open-help', 'aria-label': t.help, onclick: () => open('help') }, '?'),
   )
   return { element, note }
 }

@@ -1,8 +1,10 @@
-// Several lanes: how unevenly they are filled, and the flow, over time.
+// The lanes tab: vehicles in each lane now, the difference between the fullest and the emptiest lane, and the flow, over time.
 import { el } from '../ui/dom'
 import type { Session } from '../app/session'
 import { text } from '../text'
-import { chart, most, palette } from '../charts/line_chart'
+import { palette } from '../charts/keys'
+import { chart } from '../charts/line_chart'
+import { most } from '../charts/trace'
 
 const t = text.lanes
 
@@ -14,7 +16,7 @@ export function lanesView(session: Session): HTMLElement {
   const several = el('div', { class: 'stack' }, el('h3', {}, t.imbalance), imbalance.element)
   const element = el('div', {}, counts, several, el('div', { class: 'stack' }, flowTitle, flow.element))
   imbalance.element.style.minHeight = flow.element.style.minHeight = '80px'
-  const dress = () => {
+  const restyle = () => {
     const colours = palette(session.view.dark)
     imbalance.restyle([{ label: t.symbol, colour: colours[0]!, width: 2 }])
     flow.restyle([{ label: t.flowName, colour: colours[1]!, width: 2 }])
@@ -27,21 +29,21 @@ export function lanesView(session: Session): HTMLElement {
     const { lanes } = session.snapshot.scenario
     imbalance.show(time, [delta], window, 0, Math.max(4, most(delta)) * 1.05)
     flow.show(time, [perHour], window, 0, Math.max(1000, most(perHour)) * 1.1)
-    const { lanes: where, laneChanges } = session.frame
+    const { lanes: occupied, laneChanges } = session.frame
     const each = Array.from({ length: lanes }, () => 0)
-    for (const lane of where) each[lane]!++
+    for (const lane of occupied) each[lane]!++
     counts.textContent = lanes === 1 ? t.one : `${t.counts(each)} · ${t.changes(laneChanges.reduce((a, b) => a + b, 0))}`
   }
-  session.on('legends', () => session.snapshot && dress())
+  session.on('legends', () => session.snapshot && restyle())
   session.on('snapshot', ({ flow_window, scenario }) => {
     several.hidden = scenario.lanes === 1
     flowTitle.textContent = t.flow(flow_window)
   })
   let drawn = 0
   session.on('frame', () => {
-    // Ten times a second is enough for a chart of half seconds.
+    // The series has two values a second: ten drawings a second are enough.
     const now = performance.now()
-    if (session.playing && now - drawn < 100) return
+    if (session.playback.playing && now - drawn < 100) return
     drawn = now
     draw()
   })

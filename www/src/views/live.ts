@@ -1,10 +1,11 @@
-// The traffic in words, every few seconds, for people who listen to the page.
+// The traffic in words, every few seconds, for screen readers.
 import { el } from '../ui/dom'
 import type { Session } from '../app/session'
 import { text } from '../text'
 
+/** Time between two sentences, ms. */
 const EVERY = 8000
-/** Slower than this a car stands, m/s. */
+/** Below this speed a vehicle counts as standing, m/s. */
 const STANDS = 0.1
 
 export function liveView(session: Session): HTMLElement {
@@ -12,7 +13,7 @@ export function liveView(session: Session): HTMLElement {
   let last = 0
   session.on('frame', frame => {
     const now = performance.now()
-    if (!session.playing || now - last < EVERY) return
+    if (!session.playback.playing || now - last < EVERY) return
     last = now
     const { speeds } = frame
     let [sum, low, high, standing] = [0, Number.POSITIVE_INFINITY, 0, 0]
@@ -22,7 +23,7 @@ export function liveView(session: Session): HTMLElement {
       high = Math.max(high, v)
       if (v < STANDS) standing++
     }
-    element.textContent = `${text.live.state(frame.time, sum / speeds.length, low, high)} ${text.live.jams(standing)}`
+    element.textContent = `${text.live.state(frame.time, sum / speeds.length, low, high)} ${text.live.standing(standing)}`
   })
   session.on('playing', playing => {
     last = playing ? performance.now() : last

@@ -1,4 +1,4 @@
-// The space-time map. The core paints it, a column per interval; here are its frame, its axes and the reading
+// The space-time map. The core paints it, a column for each interval of time; this file makes its frame, its axes and the reading
 // under the pointer.
 import { card, el } from '../ui/dom'
 import { fixed } from '../text/format'
@@ -28,24 +28,25 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     'aria-label': t.lane,
     onchange: () => void session.look({ lane: Number(lane.value) }),
   })
-  const ride = el('input', { type: 'checkbox', id: 'ride', onchange: () => void session.look({ riding: ride.checked }) })
+  const coMoving = el('input', { type: 'checkbox', id: 'ride', onchange: () => void session.look({ riding: coMoving.checked }) })
   const foot = el(
     'div',
     { class: 'map-foot' },
     legend.element,
-    el('label', { for: 'ride', title: t.rideHint }, ride, ` ${t.ride}`),
+    el('label', { for: 'ride', title: t.coMovingHint }, coMoving, ` ${t.coMoving}`),
     lane,
     quantity,
   )
   const { card: section, note } = card('map', t.title, field, foot)
 
-  // The canvas moves to where the core runs; what it paints appears here.
+  // The canvas is handed over to the core, in its worker, which paints on it.
   await session.client.ask('canvas', { canvas: canvas.transferControlToOffscreen() })
 
+  /** The window that the axes show, as the sum of its ends: it tells one window from another. */
   let shown = Number.NaN
-  /** Columns that the picture shows. */
+  /** Columns of the map that the picture shows. */
   let visible = columns
-  const axes = () => {
+  const drawAxes = () => {
     const { interval, scenario } = session.snapshot
     const [start, end] = session.window()
     const window = end - start
@@ -54,29 +55,29 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     visible = window / interval
     canvas.style.width = `${(100 * columns) / visible}%`
     const most = Math.max(3, Math.floor(picture.clientWidth / 85))
-    // Up to where the axis' name stands, px.
+    // The part of the axis that its name leaves free: the name takes 75 px.
     const free = 1 - 75 / picture.clientWidth
     const times = roundSteps(start, start + window, most).filter(time => time - start < window * free)
     x.replaceChildren(
       ...times.map(time => el('span', { style: `left:${(100 * (time - start)) / window}%` }, fixed(time, 1))),
       el('span', { class: 'name', style: 'left:auto;right:0;transform:none' }, t.time),
     )
-    const places = roundSteps(0, scenario.length, picture.clientHeight > 200 ? 5 : 3)
-    const numbers = places.map(place => fixed(place, 0))
+    const positions = roundSteps(0, scenario.length, picture.clientHeight > 200 ? 5 : 3)
+    const numbers = positions.map(position => fixed(position, 0))
     field.style.setProperty('--digits', String(Math.max(3, ...numbers.map(number => number.length))))
     y.replaceChildren(
-      el('span', { class: 'name' }, session.view.riding ? t.riding : t.position),
-      ...places.map((place, k) => {
-        const up = place / scenario.length
+      el('span', { class: 'name' }, session.view.riding ? t.coMovingPosition : t.position),
+      ...positions.map((position, k) => {
+        const up = position / scenario.length
         return el('span', { style: `top:${Math.min(97, Math.max(3, 100 - 100 * up))}%` }, numbers[k])
       }),
     )
   }
-  const again = () => {
+  const redrawAxes = () => {
     shown = Number.NaN
-    axes()
+    drawAxes()
   }
-  new ResizeObserver(() => session.snapshot && again()).observe(picture)
+  new ResizeObserver(() => session.snapshot && redrawAxes()).observe(picture)
 
   const describe = () => {
     note.textContent = t.note[session.view.map]
@@ -97,10 +98,10 @@ export async function mapView(session: Session): Promise<HTMLElement> {
   picture.addEventListener('pointerleave', describe)
   session.on('legends', legends => {
     quantity.value = session.view.map
-    ride.checked = session.view.riding
+    coMoving.checked = session.view.riding
     legend.show(legends.map, session.view.map)
     describe()
-    if (session.snapshot) again()
+    if (session.snapshot) redrawAxes()
   })
   session.on('snapshot', ({ scenario }) => {
     lane.hidden = scenario.lanes === 1
@@ -108,8 +109,8 @@ export async function mapView(session: Session): Promise<HTMLElement> {
       lane.replaceChildren(...Array.from({ length: scenario.lanes }, (_, k) => el('option', { value: k }, `${t.lane} ${k + 1}`)))
     }
     lane.value = String(session.view.lane)
-    again()
+    redrawAxes()
   })
-  session.on('frame', axes)
+  session.on('frame', drawAxes)
   return section
 }

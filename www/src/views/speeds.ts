@@ -1,8 +1,10 @@
-// Speeds of five cars over time, beside the equilibrium speed.
+// The speeds of the watched vehicles over time, and the equilibrium speed.
 import { card, style } from '../ui/dom'
 import type { Session } from '../app/session'
 import { text } from '../text'
-import { type Line, chart, keys, most, palette } from '../charts/line_chart'
+import { type Line, keys, palette } from '../charts/keys'
+import { chart } from '../charts/line_chart'
+import { most } from '../charts/trace'
 
 const t = text.speeds
 const DASHES = [undefined, [10, 3], [4, 3], [12, 3, 3, 3], [2, 2]]
@@ -11,7 +13,7 @@ export function speedsView(session: Session): HTMLElement {
   const plot = chart(t.chart, t.unit, 2)
   let names = keys([])
   const { card: section, note } = card('speeds', t.title, plot.element, names)
-  const dress = () => {
+  const restyle = () => {
     const colours = palette(session.view.dark)
     const lines: Line[] = session.snapshot.watched.map((n, k) => {
       const dash = DASHES[k]
@@ -25,10 +27,10 @@ export function speedsView(session: Session): HTMLElement {
   let watched = ''
   const draw = () => {
     const { time, speeds } = session.series
-    const { mean_equilibrium_speed: rest } = session.snapshot
-    // Never lower than before within a run: a wave that leaves the window does not rescale it.
-    highest = Math.ceil(Math.max(4, 2 * rest, highest, ...speeds.map(most)) / 2) * 2
-    plot.show(time, [...speeds, rest], session.window(), 0, highest)
+    const { mean_equilibrium_speed: equilibrium } = session.snapshot
+    // The axis never gets shorter within a run: a wave that leaves the window does not change the scale.
+    highest = Math.ceil(Math.max(4, 2 * equilibrium, highest, ...speeds.map(most)) / 2) * 2
+    plot.show(time, [...speeds, equilibrium], session.window(), 0, highest)
   }
   let highest = 0
   let epoch = -1
@@ -36,10 +38,10 @@ export function speedsView(session: Session): HTMLElement {
     note.textContent = t.note(snapshot.mean_equilibrium_speed)
     if (watched !== String(snapshot.watched)) {
       watched = String(snapshot.watched)
-      dress()
+      restyle()
     }
   })
-  session.on('legends', () => session.snapshot && dress())
+  session.on('legends', () => session.snapshot && restyle())
   let rows = -1
   session.on('frame', frame => {
     if (epoch !== frame.epoch) {
@@ -47,7 +49,7 @@ export function speedsView(session: Session): HTMLElement {
       highest = 0
       rows = -1
     }
-    // Drawn when there is something new in it.
+    // Drawn only when the series has a new value.
     const last = session.series.time.at(-1) ?? -1
     if (last === rows) return
     rows = last

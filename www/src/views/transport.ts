@@ -1,19 +1,20 @@
-// Play, pause, step, restart; the playback speed; the time line with the actions on it.
-import { el } from '../ui/dom'
+// Playback: play, pause, step and restart; how fast; the time line with marks for the actions.
+import { button, el } from '../ui/dom'
 import { fixed } from '../text/format'
-import { PLAYBACKS, type Session } from '../app/session'
+import { FACTORS } from '../app/playback'
+import type { Session } from '../app/session'
 import { text } from '../text'
 
 const t = text.transport
 
 export function transportView(session: Session): HTMLElement {
-  const play = el('button', { type: 'button', class: 'main', id: 'play', onclick: () => session.toggle() }, t.play)
-  const step = el('button', { type: 'button', id: 'step', onclick: () => void session.step() }, t.step)
-  const restart = el('button', { type: 'button', id: 'restart', onclick: () => void session.restart(true) }, t.restart)
-  const playback = el(
+  const play = button({ class: 'main', id: 'play', onclick: () => session.playback.toggle() }, t.play)
+  const step = button({ id: 'step', onclick: () => void session.playback.step() }, t.step)
+  const restart = button({ id: 'restart', onclick: () => void session.restart(true) }, t.restart)
+  const factor = el(
     'select',
-    { id: 'playback', 'aria-label': t.playback, onchange: () => session.setPlayback(Number(playback.value)) },
-    ...PLAYBACKS.map(x => el('option', { value: x }, t.times(x))),
+    { id: 'playback', 'aria-label': t.playback, onchange: () => session.playback.setFactor(Number(factor.value)) },
+    ...FACTORS.map(x => el('option', { value: x }, t.times(x))),
   )
   const time = el('span', { class: 'time', id: 'time' })
   const line = el('input', { type: 'range', min: 0, step: 0.5, 'aria-label': t.line, id: 'timeline' })
@@ -26,11 +27,11 @@ export function transportView(session: Session): HTMLElement {
     time.textContent = t.time(Number(line.value), 1)
   })
   line.addEventListener('change', async () => {
-    const wasPlaying = session.playing
-    session.pause()
+    const wasPlaying = session.playback.playing
+    session.playback.pause()
     await session.seek(Number(line.value))
     dragging = false
-    if (wasPlaying) session.play()
+    if (wasPlaying) session.playback.play()
   })
   const scale = () => {
     line.max = String(furthest)
@@ -43,12 +44,12 @@ export function transportView(session: Session): HTMLElement {
     )
   }
   session.on('snapshot', () => {
-    playback.value = String(session.playback)
+    factor.value = String(session.playback.factor)
     scale()
   })
   session.on('playing', playing => {
     play.textContent = playing ? t.pause : t.play
-    playback.value = String(session.playback)
+    factor.value = String(session.playback.factor)
   })
   session.on('progress', part => {
     message.textContent = part === null ? '' : `${t.replaying} ${fixed(100 * part, 0)} %`
@@ -65,21 +66,21 @@ export function transportView(session: Session): HTMLElement {
       scale()
     }
     if (!dragging) {
-      time.textContent = t.time(frame.time, session.playback < 1 || !session.playing || frame.finished ? 2 : 1)
+      time.textContent = t.time(frame.time, session.playback.factor < 1 || !session.playback.playing || frame.finished ? 2 : 1)
       line.value = String(frame.time)
       line.setAttribute('aria-valuetext', t.lineValue(frame.time))
     }
-    const behind = session.behind()
+    const behind = session.playback.behind()
     const words = behind === null ? '' : t.behind(behind)
     if (message.textContent !== words) message.textContent = words
   })
   let epoch = -1
-  // The time line keeps the length that was reached, so that going back does not shrink it.
+  // The time line keeps the length that it has reached: going back in time does not shorten it.
   const furthestOf = () => Math.min(furthest, session.snapshot.scenario.until)
   return el(
     'div',
     { class: 'transport', role: 'group', 'aria-label': t.title },
-    el('div', { class: 'row' }, play, step, restart, playback),
+    el('div', { class: 'row' }, play, step, restart, factor),
     el('div', { class: 'row' }, el('div', { class: 'timeline' }, line, marks), time),
     message,
   )

@@ -1,15 +1,14 @@
-// The paper's figures: each with its button, its picture, its claims and its files. The core makes all of them.
+// The paper's figures: each with its button, its picture, the paper's claims and files to save. The core computes all of them.
 import { Cancelled } from '../../core/client'
 import { Pool } from '../../core/pool'
-import { el } from '../../ui/dom'
+import { button, el } from '../../ui/dom'
 import { wasmBytes } from '../../core/assets'
-import { png, save } from '../../ui/download'
+import { save } from '../../ui/download'
+import { png } from '../../ui/png'
 import type { Session } from '../../app/session'
 import type { Claim, FigureInfo, FigureOutcome } from '../../core/protocol'
-import { text } from '../../text'
+import { figuresText as t } from '../../text/figures'
 import { readable } from '../../charts/readout'
-
-const t = text.figures
 
 /** One figure on the page. */
 interface Entry {
@@ -27,18 +26,17 @@ export async function figuresView(session: Session): Promise<HTMLElement[]> {
   const queue: Entry[] = []
   let current: Entry | null = null
 
-  const all = el('button', { type: 'button', class: 'main', id: 'figures-all', onclick: () => entries.forEach(ask) }, t.all)
-  const none = el('button', { type: 'button', id: 'figures-cancel', disabled: true, onclick: () => [...queue, current].forEach(e => e && cancel(e)) }, t.cancelAll)
+  const all = button({ class: 'main', id: 'figures-all', onclick: () => entries.forEach(queueUp) }, t.all)
+  const none = button({ id: 'figures-cancel', disabled: true, onclick: () => [...queue, current].forEach(e => e && cancel(e)) }, t.cancelAll)
   const summary = el('p', { role: 'status', id: 'figures-summary' })
 
-  /** Puts a figure in the queue. */
-  function ask(entry: Entry): void {
+  function queueUp(entry: Entry): void {
     if (entry.state !== 'idle') return
     entry.state = 'waiting'
     entry.say(current ? t.waiting : t.starting)
     queue.push(entry)
     entry.show()
-    void work()
+    void runQueue()
   }
 
   function cancel(entry: Entry): void {
@@ -51,7 +49,7 @@ export async function figuresView(session: Session): Promise<HTMLElement[]> {
     }
   }
 
-  async function work(): Promise<void> {
+  async function runQueue(): Promise<void> {
     if (current) return
     for (let entry = queue.shift(); entry; entry = queue.shift()) {
       current = entry
@@ -69,7 +67,7 @@ export async function figuresView(session: Session): Promise<HTMLElement[]> {
     none.disabled = true
   }
 
-  /** Runs a figure; what there is to say in the end. */
+  /** Runs a figure; how it ended, in words. */
   async function run(entry: Entry): Promise<string> {
     const { id: figure, pieces: count } = entry.info
     const before = performance.now()
@@ -87,16 +85,16 @@ export async function figuresView(session: Session): Promise<HTMLElement[]> {
     }
   }
 
-  const entries = infos.map(info => figureEntry(info, ask, cancel))
+  const entries = infos.map(info => figureEntry(info, queueUp, cancel))
   return [
     el('div', { class: 'figures-head' }, el('h2', {}, t.title), el('p', {}, t.intro), el('div', { class: 'row' }, all, none), summary),
     ...entries.map(e => e.element),
   ]
 }
 
-function figureEntry(info: FigureInfo, ask: (entry: Entry) => void, cancel: (entry: Entry) => void): Entry {
-  const run = el('button', { type: 'button', class: 'run', 'aria-label': t.runLabel(info.title), onclick: () => ask(entry) }, t.run)
-  const stop = el('button', { type: 'button', class: 'stop', 'aria-label': t.cancelLabel(info.title), hidden: true, onclick: () => cancel(entry) }, t.cancel)
+function figureEntry(info: FigureInfo, queueUp: (entry: Entry) => void, cancel: (entry: Entry) => void): Entry {
+  const run = button({ class: 'run', 'aria-label': t.runLabel(info.title), onclick: () => queueUp(entry) }, t.run)
+  const stop = button({ class: 'stop', 'aria-label': t.cancelLabel(info.title), hidden: true, onclick: () => cancel(entry) }, t.cancel)
   const bar = el('progress', { max: 1, value: 0, hidden: true, 'aria-label': t.progress(info.title) })
   const status = el('span', { class: 'status', role: 'status' })
   const result = el('div', { class: 'result' })
@@ -119,7 +117,7 @@ function figureEntry(info: FigureInfo, ask: (entry: Entry) => void, cancel: (ent
     },
     show() {
       const idle = entry.state === 'idle'
-      // Who pressed a button that goes is led to the one that comes.
+      // When the focused button disappears, the focus goes to the one in its place.
       const focused = document.activeElement === run || document.activeElement === stop
       run.hidden = !idle
       stop.hidden = idle
@@ -145,7 +143,7 @@ function tally(claims: readonly Claim[]): string {
 function outcomeParts(info: FigureInfo, outcome: FigureOutcome): HTMLElement[] {
   const parsed = new DOMParser().parseFromString(outcome.svg, 'image/svg+xml').documentElement
   const picture = document.importNode(parsed, true) as unknown as SVGSVGElement
-  const file = (name: string, make: () => void) => el('button', { type: 'button', onclick: make }, name)
+  const file = (name: string, make: () => void) => button({ onclick: make }, name)
   const files = el(
     'div',
     { class: 'row files' },

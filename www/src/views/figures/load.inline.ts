@@ -1,4 +1,4 @@
-// The same where there is no other file to load: a page opened from disk may import none.
+// The same for the one-file page: a page opened from disk may not import other files.
 import * as figures from './figures'
 
 export const loadFigures = async () => figures

@@ -1,30 +1,30 @@
-// The map of the largest growth rate over the plane. The core computes it in slices beside the traffic, so that a
-// change of mind costs no more than one of them; what is there is painted every now and then.
+// The map of the largest growth rate in the stability diagram. The core computes it column by column in slices between the
+// steps of the traffic, and what is there is painted after each slice; a map that is not wanted any more costs one slice at most.
 import type { Client } from '../../core/client'
 
 /** Reaction times in a column. */
 const DELAYS = 200
-/** Milliseconds after which what is there is painted. */
+/** Time for which one request computes, ms; then what is there is painted. */
 const PART = 120
-/** The colours are logarithmic from here … */
+/** The colours are logarithmic from this rate … */
 const FROM = 1e-3
-/** … to here, 1/s, on either side of 0. */
+/** … to this one, 1/s, on either side of 0. */
 export const TO = 1
 
 type Colour = readonly [number, number, number]
 
-/** What fades, what neither grows nor fades, what grows: blue and orange, which colour-blind eyes tell apart. */
+/** Decay, no growth, growth: blue and orange, which colour-blind eyes tell apart. */
 const COLOURS = {
   light: [[24, 78, 160], [248, 248, 246], [190, 84, 0]],
   dark: [[110, 176, 245], [20, 23, 28], [250, 160, 50]],
 } as const
 
-/** The colour of a growth rate (1/s). */
+/** The colour of a growth rate (1/s): red, green, blue. */
 export function colour(rate: number, dark: boolean): Colour {
-  const [fades, rest, grows] = COLOURS[dark ? 'dark' : 'light']
-  const end = rate < 0 ? fades : grows
+  const [decay, zero, growth] = COLOURS[dark ? 'dark' : 'light']
+  const end = rate < 0 ? decay : growth
   const part = Math.min(1, Math.log1p(Math.abs(rate) / FROM) / Math.log1p(TO / FROM))
-  const mix = (k: 0 | 1 | 2) => Math.round(rest[k] + part * (end[k] - rest[k]))
+  const mix = (k: 0 | 1 | 2) => Math.round(zero[k] + part * (end[k] - zero[k]))
   return [mix(0), mix(1), mix(2)]
 }
 
@@ -33,16 +33,17 @@ export const rateAt = (place: number): number => Math.sign(place) * FROM * Math.
 
 /** What a map is of. */
 interface Subject {
-  /** Tells one plane from another. */
+  /** Differs from map to map. */
   readonly key: string
   readonly vehicles: readonly number[]
   /** The longest reaction time, s. */
   readonly highest: number
-  /** Whether in the run's steps, or in continuous time. */
+  /** Whether in the run's time steps, or in continuous time. */
   readonly steps: boolean
 }
+export type GrowthMap = ReturnType<typeof growthMap>
 
-/** `going` says whether to go on; `progress` is called when there is more of it. */
+/** `going` tells whether to compute more; `progress` is called when there is more of the map. */
 export function growthMap(client: Client, going: () => boolean, progress: () => void) {
   const picture = document.createElement('canvas')
   picture.height = DELAYS
@@ -52,6 +53,7 @@ export function growthMap(client: Client, going: () => boolean, progress: () => 
   let running = false
   let dark = false
 
+  /** Paints the columns from `from` to what is done. */
   const paint = (from: number) => {
     if (done === from) return
     const image = new ImageData(done - from, DELAYS)
@@ -81,7 +83,7 @@ export function growthMap(client: Client, going: () => boolean, progress: () => 
     running = false
   }
   return {
-    /** From now on the map is of this; null: there is none. */
+    /** Computes this map from now on; null: none. */
     show(next: Subject | null) {
       if (next?.key !== subject?.key) {
         this.halt()
@@ -92,14 +94,14 @@ export function growthMap(client: Client, going: () => boolean, progress: () => 
       }
       void run()
     },
-    /** Stops after the slice that is under way; `show` goes on. */
+    /** Stops after the present slice; `show` goes on. */
     halt() {
       if (running) void client.ask('haltGrowthRates', {})
     },
     /** How much of it is there, 0 … 1. */
     part: (): number => (subject ? done / subject.vehicles.length : 0),
-    /** Draws it: `left` and `right` are where the first and the last number of vehicles stand, `top` and `bottom` the
-     * longest reaction time and none. */
+    /** Draws it. `left` and `right`: places of the first and the last number of vehicles; `top` and `bottom`: places of the
+     * longest reaction time and of 0, px. */
     draw(c: CanvasRenderingContext2D, left: number, right: number, top: number, bottom: number, isDark: boolean) {
       if (dark !== isDark) {
         dark = isDark

@@ -1,12 +1,13 @@
-// Growth of each mode as the run shows it, beside what theory says.
+// Growth rate of each mode as measured in the run, and as theory predicts it.
 import { drawing, el, style } from '../../ui/dom'
 import type { ModesGrowth, Roots } from '../../core/protocol'
 import { text } from '../../text'
-import { axes, frame, room, roundSteps, say, ticks, word } from '../../charts/axes'
+import { FONT, axes, frame, labelWidth, roundSteps, say, ticks, word } from '../../charts/axes'
+import { clipped, line } from '../../charts/canvas'
 
 const t = text.modes
 
-/** What the run has to say of the mode that theory calls the fastest. */
+/** A sentence on the measurement of the mode that grows fastest in theory. */
 function status(measured: ModesGrowth, alike: boolean, fastest: number | null, time: number, lanes: number): string {
   if (fastest === null) return ''
   if (measured.modes.length === 0 && time >= measured.starts) return lanes > 1 ? t.changing : t.nothing
@@ -16,10 +17,52 @@ function status(measured: ModesGrowth, alike: boolean, fastest: number | null, t
     if (time < measured.starts) return t.waiting(measured.starts)
     return lead.ended_by === 'sank into rounding' ? t.quiet : t.large
   }
-  // What the waves' size may have done, and the scatter.
+  // What the waves' size may have changed, and two standard errors.
   const error = lead.nonlinear_bound === null || lead.standard_error === null ? null : lead.nonlinear_bound + 2 * lead.standard_error
   const ended = { 'end of the run': t.linear(lead.from, error), 'left the linear regime': t.left(lead.to, error), disturbed: t.disturbed(lead.to), 'sank into rounding': t.faded(lead.to) }[lead.ended_by]
   return [ended ?? '', alike ? '' : t.differ].join(' ').trim()
+}
+
+/** Theory: a line through circles at these places (px). */
+function drawPredicted(c: CanvasRenderingContext2D, places: readonly (readonly [number, number])[]): void {
+  c.strokeStyle = style('--accent')
+  c.beginPath()
+  for (const place of places) c.lineTo(...place)
+  c.stroke()
+  c.fillStyle = style('--card')
+  for (const place of places) {
+    c.beginPath()
+    c.arc(...place, 4, 0, 7)
+    c.fill()
+    c.stroke()
+  }
+}
+
+/** A measured growth rate, its standard error, and how far the waves' size may have changed it, 1/s. */
+interface Dot {
+  readonly mode: number
+  readonly rate: number
+  readonly error: number
+  readonly bound: number
+}
+
+/** The measurement: for each mode a diamond, its standard error as a line and the bound as a bar. */
+function drawMeasured(c: CanvasRenderingContext2D, dots: readonly Dot[], x: (mode: number) => number, y: (rate: number) => number): void {
+  c.strokeStyle = c.fillStyle = style('--ink')
+  for (const { mode, rate, error, bound } of dots) {
+    const [px, py] = [x(mode), y(rate)]
+    c.globalAlpha = 0.22
+    c.fillRect(px - 3, y(rate + bound), 6, y(rate - bound) - y(rate + bound))
+    c.globalAlpha = 1
+    line(c, px, y(rate - error), px, y(rate + error))
+    c.beginPath()
+    c.moveTo(px, py - 4)
+    c.lineTo(px + 3, py)
+    c.lineTo(px, py + 4)
+    c.lineTo(px - 3, py)
+    c.closePath()
+    c.fill()
+  }
 }
 
 export function modesView() {
@@ -42,7 +85,7 @@ export function modesView() {
       say(c, t.none, w, h)
       return
     }
-    // As many as the core would look at.
+    // As many modes as the core measures when it measures.
     const count = measured.modes.length || Math.min(Math.max(...theory.modes), Math.min(40, Math.max(10, 2 * leader)))
     const predicted = theory.modes.flatMap((mode, k) => {
       const rate = theory!.growth_per_s[k]
@@ -54,55 +97,19 @@ export function modesView() {
     const low = Math.min(...rates) - 0.08 * span
     const high = Math.max(...rates) + 0.16 * span
     const steps = roundSteps(low, high, 4)
-    const f = frame(w, h, Math.max(46, room(steps)))
+    const f = frame(w, h, Math.max(46, labelWidth(steps)))
     const x = (mode: number) => f.left + ((f.right - f.left) * (mode - 0.5)) / count
     const y = (rate: number) => f.bottom - ((f.bottom - f.top) * (rate - low)) / (high - low)
     c.fillStyle = style('--bad-ground')
     c.fillRect(f.left, f.top, f.right - f.left, y(0) - f.top)
     const marks = roundSteps(1, count, 6).filter(Number.isInteger)
     axes(c, f, ticks(marks, x), ticks(steps, y), { x: t.axis, y: t.rate })
+    c.lineWidth = 1.5
     c.strokeStyle = style('--ink')
-    c.lineWidth = 1.5
-    c.beginPath()
-    c.moveTo(f.left, y(0))
-    c.lineTo(f.right, y(0))
-    c.stroke()
-    c.strokeStyle = style('--accent')
-    c.lineWidth = 1.5
-    c.beginPath()
-    predicted.forEach((p, k) => (k === 0 ? c.moveTo(x(p.mode), y(p.rate)) : c.lineTo(x(p.mode), y(p.rate))))
-    c.stroke()
-    for (const p of predicted) {
-      c.beginPath()
-      c.arc(x(p.mode), y(p.rate), 4, 0, 7)
-      c.fillStyle = style('--card')
-      c.fill()
-      c.stroke()
-    }
-    c.save()
-    c.beginPath()
-    c.rect(f.left, f.top, f.right - f.left, f.bottom - f.top)
-    c.clip()
-    c.strokeStyle = c.fillStyle = style('--ink')
-    for (const d of dots) {
-      const [px, py] = [x(d.mode), y(d.rate)]
-      c.globalAlpha = 0.22
-      c.fillRect(px - 3, y(d.rate + d.bound), 6, y(d.rate - d.bound) - y(d.rate + d.bound))
-      c.globalAlpha = 1
-      c.beginPath()
-      c.moveTo(px, y(d.rate - d.error))
-      c.lineTo(px, y(d.rate + d.error))
-      c.stroke()
-      c.beginPath()
-      c.moveTo(px, py - 4)
-      c.lineTo(px + 3, py)
-      c.lineTo(px, py + 4)
-      c.lineTo(px - 3, py)
-      c.closePath()
-      c.fill()
-    }
-    c.restore()
-    c.font = '12.5px system-ui, "DejaVu Sans", sans-serif'
+    line(c, f.left, y(0), f.right, y(0))
+    drawPredicted(c, predicted.map(p => [x(p.mode), y(p.rate)]))
+    clipped(c, f.left, f.top, f.right, f.bottom, () => drawMeasured(c, dots, x, y))
+    c.font = FONT
     c.textAlign = 'right'
     c.textBaseline = 'middle'
     if (y(0) - f.top > 16) word(c, text.roots.grows, f.right - 5, f.top + 10, style('--bad'))

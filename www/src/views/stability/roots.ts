@@ -1,12 +1,13 @@
-// The characteristic roots in the complex plane. A mode grows where its root lies right of the imaginary axis. Both
-// axes are logarithmic away from 0, so that a root just across the axis can be told from one on it.
+// The characteristic roots in the complex plane. A mode grows if its root lies right of the imaginary axis. Both axes are
+// logarithmic away from 0, so that a root close to the imaginary axis differs visibly from one on it.
 import { drawing, el, style } from '../../ui/dom'
 import type { Roots } from '../../core/protocol'
 import { text } from '../../text'
-import { axes, frame, say, ticks, word } from '../../charts/axes'
+import { FONT, axes, frame, say, ticks, word } from '../../charts/axes'
+import { line } from '../../charts/canvas'
 
 const t = text.roots
-/** Where the logarithm begins, 1/s. */
+/** Below these values the axes are about linear, above them logarithmic, 1/s. */
 const REAL = 0.01
 const IMAGINARY = 0.1
 
@@ -42,7 +43,7 @@ export function rootsView() {
       return
     }
     const low = log(Math.min(-0.1, ...all.map(r => r.re)) * 1.5, REAL)
-    // Room for the word beside the axis.
+    // Leaves space for the word beside the axis.
     const high = log(Math.max(0.1, ...all.map(r => r.re)) * 3, REAL)
     const top = log(Math.max(1, ...all.map(r => r.im)) * 1.4, IMAGINARY)
     const x = (re: number) => f.left + ((f.right - f.left) * (log(re, REAL) - low)) / (high - low)
@@ -54,10 +55,7 @@ export function rootsView() {
     axes(c, f, ticks(reals, x), ticks([0, 0.1, 1, 10, 100].filter(v => log(v, IMAGINARY) < top), y), { x: t.real, y: t.imaginary })
     c.strokeStyle = style('--ink')
     c.lineWidth = 2
-    c.beginPath()
-    c.moveTo(x(0), f.top)
-    c.lineTo(x(0), f.bottom)
-    c.stroke()
+    line(c, x(0), f.top, x(0), f.bottom)
     c.strokeStyle = style('--soft')
     c.lineWidth = 1.25
     c.beginPath()
@@ -72,7 +70,7 @@ export function rootsView() {
     for (const root of leading) {
       const [px, py] = [x(root.re), y(root.im)]
       c.beginPath()
-      // What grows differs in shape, not in colour alone.
+      // Growing modes differ in shape, not in colour alone.
       if (root.re > 0) {
         c.moveTo(px, py - 5)
         c.lineTo(px + 4.5, py + 3.5)
@@ -85,7 +83,7 @@ export function rootsView() {
       }
       c.fill()
     }
-    c.font = '12.5px system-ui, "DejaVu Sans", sans-serif'
+    c.font = FONT
     c.textBaseline = 'middle'
     c.textAlign = 'right'
     word(c, t.fades, x(0) - 6, f.top + 11, style('--good'))

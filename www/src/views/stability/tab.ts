@@ -1,20 +1,21 @@
-// The stability tab: where waves grow, why, and whether the run agrees.
-import { el } from '../../ui/dom'
+// The stability tab: the stability diagram, the characteristic roots, and the growth of each mode by theory and in the run.
 import type { Session } from '../../app/session'
 import type { ModesGrowth, Roots, Verdict } from '../../core/protocol'
+import { el } from '../../ui/dom'
+import { diagramView } from './diagram'
 import { modesView } from './modes'
-import { planeView } from './diagram'
 import { rootsView } from './roots'
 import './stability.css'
 
-/** Between two looks at the measured growth, ms. */
+/** Time between two requests for the measured growth, ms. */
 const MEASURE = 400
 
-export function stabilityView(session: Session, preview: (v: Verdict | null) => void): HTMLElement {
-  const plane = planeView(session, preview)
+/** `preview` shows the stability summary for another place, or with null that of the run. */
+export function stabilityView(session: Session, preview: (summary: Verdict | null) => void): HTMLElement {
+  const diagram = diagramView(session, preview)
   const roots = rootsView()
   const modes = modesView()
-  const element = el('div', { class: 'stability' }, el('div', { class: 'figures' }, plane.element, roots.element, modes.element))
+  const element = el('div', { class: 'stability' }, el('div', { class: 'figures' }, diagram.element, roots.element, modes.element))
   const visible = () => element.clientWidth > 0
 
   let curvesOf = ''
@@ -24,8 +25,8 @@ export function stabilityView(session: Session, preview: (v: Verdict | null) => 
   const showModes = () => {
     if (theory && measured && session.frame) modes.show(theory, measured, session.snapshot.verdict.mode, session.frame.time, session.snapshot.scenario.lanes)
   }
-  // Theory is asked when what it depends on has changed, and only for eyes that see it.
-  const consider = async () => {
+  // The core computes theory only while the tab is visible, and only when something has changed on which it depends.
+  const update = async () => {
     if (!session.snapshot || !visible()) return
     const { scenario, driver, verdict, changes } = session.snapshot
     const { length, lanes, time_step, start, vehicles, exceptions } = scenario
@@ -33,7 +34,7 @@ export function stabilityView(session: Session, preview: (v: Verdict | null) => 
     const curves = JSON.stringify([road, exceptions, verdict.lane, verdict.vehicles, verdict.alike])
     if (curves !== curvesOf) {
       curvesOf = curves
-      plane.of(await session.client.ask('plane', {}))
+      diagram.of(await session.client.ask('plane', {}))
     }
     const lane = JSON.stringify([road, exceptions, verdict, changes])
     if (lane !== rootsOf) {
@@ -42,7 +43,7 @@ export function stabilityView(session: Session, preview: (v: Verdict | null) => 
       roots.show(theory)
       showModes()
     }
-    plane.show()
+    diagram.show()
   }
   let timer = 0
   const measure = () => {
@@ -54,16 +55,16 @@ export function stabilityView(session: Session, preview: (v: Verdict | null) => 
       showModes()
     }, MEASURE)
   }
-  session.on('snapshot', () => void consider())
+  session.on('snapshot', () => void update())
   session.on('frame', measure)
   session.on('legends', () => {
-    // Light has become dark, or the other way round.
-    plane.redraw()
+    // The page may have changed between light and dark.
+    diagram.draw()
     roots.redraw()
     modes.redraw()
   })
   new ResizeObserver(() => {
-    void consider()
+    void update()
     measure()
   }).observe(element)
   return element

@@ -2,7 +2,7 @@
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
-import { csv, equal, hash, holds, playTo, ready, ringroad, rows, snapshot, test, verdict } from './harness.mjs'
+import { csv, equal, hash, holds, playTo, ready, ringroad, rows, snapshot, test, verdict } from './helpers.mjs'
 
 const NUDGE = 'action=at%3D0%3A1%3Anudge%3D1'
 
@@ -43,12 +43,12 @@ for (const [delta, state] of [
 test('a brake and a new Δ made by hand: the CSV saved equals the command’s', async ({ open }) => {
   const page = await open('index.html#reaction-time=0.4&vehicles=40', { acceptDownloads: true })
   await ready(page)
-  await page.evaluate(() => window.ringroad.setPlayback(1))
+  await page.evaluate(() => window.ringroad.playback.setFactor(1))
   // Press on a car and hold.
   const box = await page.locator('#ring-canvas').boundingBox()
   await page.waitForTimeout(300)
   const [x, y] = await page.evaluate(() => {
-    window.ringroad.pause()
+    window.ringroad.playback.pause()
     const canvas = document.querySelector('#ring-canvas')
     const { frame, snapshot } = window.ringroad
     const outer = Math.min(canvas.clientWidth, canvas.clientHeight) / 2 - 12
@@ -195,8 +195,8 @@ test('the clock has two decimals at the end of a run', async ({ open }) => {
   const page = await open('index.html#until=20')
   await ready(page)
   await page.evaluate(() => {
-    window.ringroad.setPlayback(100)
-    window.ringroad.play()
+    window.ringroad.playback.setFactor(100)
+    window.ringroad.playback.play()
   })
   await page.waitForFunction(() => window.ringroad.frame.finished)
   equal((await page.textContent('.transport .time')).replace('\u202f', ' '), 't = 20.00 s', 'the clock')

@@ -1,15 +1,15 @@
-// The stability tab: its point moves the ring across the threshold, and the run agrees with what it says.
-import { equal, holds, playTo, ready, snapshot, test, verdict } from './harness.mjs'
+// The stability tab: its point moves the ring across the threshold, and the run agrees with theory.
+import { equal, holds, playTo, ready, snapshot, test, verdict } from './helpers.mjs'
 
 const NUDGE = 'action=at%3D0%3A1%3Anudge%3D1'
-// So small that what is not linear stays below what is asked of the measurement.
+// So small that the nonlinear part stays below the accuracy that the test asks for.
 const TOUCH = 'action=at%3D0%3A1%3Anudge%3D0.1'
 const still = { reducedMotion: 'reduce' }
 
 /** Waits until the point can be dragged. */
-const plane = at => at.waitForFunction(() => document.querySelector('#plane-point').hasAttribute('aria-valuetext'))
+const diagram = at => at.waitForFunction(() => document.querySelector('#plane-point').hasAttribute('aria-valuetext'))
 
-/** Takes the point to a place of the plane; `before` runs while it is still held. */
+/** Drags the point to a place of the stability diagram; `before` runs while it is still held. */
 async function drag(page, vehicles, delay, before = () => {}) {
   await page.locator('#plane-point').scrollIntoViewIfNeeded()
   const middle = async () => {
@@ -33,7 +33,7 @@ async function drag(page, vehicles, delay, before = () => {}) {
   await page.waitForTimeout(200)
 }
 
-/** What the tab measures of the mode that theory calls the fastest. */
+/** What the tab measures of the mode that grows fastest in theory. */
 async function lead(page) {
   const { mode, rate } = (await snapshot(page)).verdict
   const { modes } = await page.evaluate(() => window.ringroad.client.ask('modes', {}))
@@ -44,10 +44,10 @@ for (const [state, from, to, sign] of [
   ['stable', 0.75, 0.6, -1],
   ['unstable', 0.6, 0.75, 1],
 ]) {
-  test(`the point dragged to the ${state} side turns the verdict, and growth over 200 s agrees`, async ({ open }) => {
+  test(`the point dragged to the ${state} side changes the summary, and growth over 200 s agrees`, async ({ open }) => {
     const page = await open(`index.html#reaction-time=${from}&${TOUCH}`, still)
     await ready(page)
-    await plane(page)
+    await diagram(page)
     holds((await verdict(page)) !== state, `${state} before the point has moved`)
     let held
     await drag(page, 50, to, async () => {
@@ -79,10 +79,10 @@ for (const [state, from, to, sign] of [
   })
 }
 
-test('with two lanes the plane is of the lane that the verdict speaks of', async ({ open }) => {
+test('with two lanes the stability diagram is of the lane that the summary is about', async ({ open }) => {
   const page = await open(`index.html#reaction-time=0.75&lanes=2&${NUDGE}`, still)
   await ready(page)
-  await plane(page)
+  await diagram(page)
   const value = () => page.getAttribute('#plane-point', 'aria-valuetext')
   equal(await value(), '25 vehicles in lane 1, reaction time 0.75 seconds: stable', 'where the lane stands')
   const sentence = await page.textContent('#verdict .sentence')
@@ -105,10 +105,10 @@ test('with two lanes the plane is of the lane that the verdict speaks of', async
   holds(now.scenario.actions.at(-1).includes('reaction-time='), now.scenario.actions.join())
 })
 
-test('where drivers differ the plane says that it is for drivers alike, and theory stands beside what is measured', async ({ open }) => {
+test('with heterogeneous drivers the diagram says that it is for homogeneous ones, and theory is beside the measurement', async ({ open }) => {
   const page = await open(`index.html#reaction-time=0.75&driver=1-25%3Areaction-time%3D0.3&${TOUCH}`, still)
   await ready(page)
-  await plane(page)
+  await diagram(page)
   equal(await page.textContent('#plane-title'), 'If drivers were alike', 'title')
   holds(/for drivers alike/.test(await page.getAttribute('#plane canvas', 'aria-label')), 'said in words')
   await playTo(page, 60)
@@ -123,13 +123,13 @@ test('where drivers differ the plane says that it is for drivers alike, and theo
   }
 })
 
-/** Switches to a picture of the plane and waits until it is there. */
+/** Chooses what the diagram shows and waits until it is complete. */
 async function choose(page, ground, { wait = true } = {}) {
   await page.selectOption('#plane-ground', ground)
   if (wait) await page.waitForFunction(() => document.querySelector('#plane').dataset.growth === 'done', null, { timeout: 60_000 })
 }
 
-/** The colour of the plane at a number of vehicles and a reaction time; the axes reach to 133 and 1.5 s. */
+/** The colour of the diagram at a number of vehicles and a reaction time; the axes reach to 133 and 1.5 s. */
 const at = (page, vehicles, delay) =>
   page.evaluate(
     ([n, s]) => {
@@ -146,7 +146,7 @@ for (const colorScheme of ['light', 'dark']) {
   test(`the map of growth rates is blue below the curve and orange above it, ${colorScheme}`, async ({ open }) => {
     const page = await open(`index.html#reaction-time=0.2&${NUDGE}`, { ...still, colorScheme })
     await ready(page)
-    await plane(page)
+    await diagram(page)
     for (const ground of ['steps', 'continuous']) {
       await choose(page, ground)
       for (const [n, s, grows] of [
@@ -173,10 +173,10 @@ for (const colorScheme of ['light', 'dark']) {
   })
 }
 
-test('the map of growth rates leaves room for everything else and is given up at once', async ({ open }) => {
+test('the map of growth rates leaves the worker time for other requests, and stops at once', async ({ open, note }) => {
   const page = await open(`index.html#reaction-time=0.75&${NUDGE}`, still)
   await ready(page)
-  await plane(page)
+  await diagram(page)
   /** How long the worker lets another question wait, and the page a timer, while `during` goes on (ms). */
   const waits = during =>
     page.evaluate(async source => {
@@ -210,11 +210,11 @@ test('the map of growth rates leaves room for everything else and is given up at
   const idle = await waits('performance.now() < window.until')
   await choose(page, 'steps', { wait: false })
   const busy = await waits("document.querySelector('#plane').dataset.growth === 'busy'")
-  console.log(`        map: ${JSON.stringify(busy)}, without: ${JSON.stringify(idle)}`)
+  note(`map: ${JSON.stringify(busy)}, without: ${JSON.stringify(idle)}`)
   holds(busy.answers >= 5, `${busy.answers} answers meanwhile`)
   holds(busy.worker < 3 * idle.worker + 120 && busy.own < 3 * idle.own + 120, `${JSON.stringify(busy)}, without: ${JSON.stringify(idle)}`)
 
-  // Given up: what has been asked for comes back short.
+  // Halted: the answer has fewer columns than asked for.
   const short = await page.evaluate(async () => {
     const { client } = window.ringroad
     const vehicles = Array.from({ length: 132 }, (_, k) => k + 2)
@@ -230,7 +230,7 @@ test('the map of growth rates leaves room for everything else and is given up at
     equal(await page.getAttribute('#plane', 'data-growth'), 'busy', 'while the point is held')
   })
   await choose(page, 'continuous')
-  // Another plane is another map.
+  // Other curves have another map.
   await page.evaluate(() => window.ringroad.set('sensitivity', '1.5'))
   await page.waitForFunction(() => document.querySelector('#plane').dataset.growth === 'busy')
   await choose(page, 'continuous')
@@ -239,7 +239,7 @@ test('the map of growth rates leaves room for everything else and is given up at
 test('the point moves by keyboard: Δ and N, and N starts again', async ({ open }) => {
   const page = await open(`index.html#reaction-time=0.66&${NUDGE}`, still)
   await ready(page)
-  await plane(page)
+  await diagram(page)
   await playTo(page, 5)
   await page.focus('#plane-point')
   const seen = {}
@@ -261,7 +261,7 @@ test('the point moves by keyboard: Δ and N, and N starts again', async ({ open 
   equal(await page.inputValue('#p-vehicles-number'), '42', 'the number beside the slider')
 })
 
-test('the stability tab tells in words what it draws', async ({ open }) => {
+test('the stability tab says in words what it draws', async ({ open }) => {
   const page = await open(`index.html#reaction-time=0.75&${NUDGE}`)
   await ready(page)
   await playTo(page, 60)
@@ -298,7 +298,7 @@ for (const [width, height] of [
   test(`the stability tab fits ${width} × ${height}`, async ({ open }) => {
     const page = await open(`index.html#reaction-time=0.75&${NUDGE}`, { ...still, viewport: { width, height } })
     await ready(page)
-    await plane(page)
+    await diagram(page)
     const cut = await page.evaluate(() => {
       const over = e => e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1
       const panel = document.querySelector('#panel-stability')

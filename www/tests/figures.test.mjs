@@ -2,7 +2,7 @@
 import { mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
-import { dist, equal, hash, holds, ringroad, test } from './harness.mjs'
+import { dist, equal, hash, holds, ringroad, test } from './helpers.mjs'
 
 /** Runs a figure on an open page to its end. */
 async function runs(page, id) {
@@ -120,15 +120,15 @@ test('figures: values are read off the picture by pointer, by finger and by keyb
   for (let k = 0; k < 2; k++) await page.keyboard.press('ArrowLeft')
   equal(await told(), expected, 'what a live region says')
   equal(await reading(), expected, 'what is to be seen')
-  const ring = await page.locator(`${figure} svg .pointer`).boundingBox()
+  const mark = await page.locator(`${figure} svg .pointer`).boundingBox()
   await page.keyboard.press('PageDown')
   holds((await told()).startsWith('Flow at L/2'), await told())
   await page.keyboard.press('Escape')
   equal(await told(), '', 'after Escape')
-  equal(await page.locator(`${figure} svg .pointer`).count(), 0, 'rings')
+  equal(await page.locator(`${figure} svg .pointer`).count(), 0, 'marks')
 
-  // By pointer: a few pixels beside it is near enough, and nothing is told aloud.
-  const [x, y] = [ring.x + ring.width / 2, ring.y + ring.height / 2]
+  // By pointer: a few pixels away are near enough, and screen readers get nothing.
+  const [x, y] = [mark.x + mark.width / 2, mark.y + mark.height / 2]
   await page.mouse.move(x + 0.5, y + 1)
   equal(await reading(), expected, 'under the pointer')
   equal(await told(), '', 'told aloud')
@@ -159,8 +159,8 @@ test('figures: a map tells the value of a cell', async ({ open }) => {
     const said = await page.textContent(`${figure} .reading`)
     const [, time, position, flow] = said.match(/time \(s\): ([\d.]+) · position \(m\): ([\d.]+) · .*: ([\d.]+)$/) ?? []
     holds(flow !== undefined, said)
-    const beside = still.filter(row => Math.abs(row.time_s - time) <= 5 && Math.abs(row.position_m - position) <= 20)
-    holds(beside.some(row => digits(row.flow_veh_per_s) === flow), `${said}; the table has ${beside.map(row => row.flow_veh_per_s)}`)
+    const near = still.filter(row => Math.abs(row.time_s - time) <= 5 && Math.abs(row.position_m - position) <= 20)
+    holds(near.some(row => digits(row.flow_veh_per_s) === flow), `${said}; the table has ${near.map(row => row.flow_veh_per_s)}`)
   }
   // By keyboard, from cell to cell.
   await page.focus(`${figure} .plot`)
@@ -204,7 +204,7 @@ for (const [how, address] of Object.entries(CANCEL)) {
   })
 }
 
-test('figures: those that wait are cancelled with the one that runs', async ({ open }) => {
+test('figures: waiting figures are cancelled with the one that runs', async ({ open }) => {
   const page = await open('figures.html')
   await page.click('#figures-all')
   await page.waitForSelector('#figure-stability[data-state=running]', { timeout: 60_000 })
@@ -215,12 +215,12 @@ test('figures: those that wait are cancelled with the one that runs', async ({ o
   holds(/^\d+ claims: \d+ agree/.test(await page.textContent('#figures-summary')), 'no summary')
 })
 
-test('figures: there and back again, the laboratory stays as it was', async ({ open }) => {
+test('figures: the laboratory is unchanged after a visit to the figures', async ({ open }) => {
   const page = await open('index.html#vehicles=40')
   await page.waitForFunction(() => window.ringroad?.frame?.time > 0.5)
   await page.click('#open-figures')
   await page.waitForSelector('#figures .figure')
-  equal(await page.evaluate(() => window.ringroad.playing), false, 'playing')
+  equal(await page.evaluate(() => window.ringroad.playback.playing), false, 'playing')
   holds(!(await page.isVisible('#ring')), 'the ring is still to be seen')
   const time = await page.evaluate(() => window.ringroad.frame.time)
   await page.waitForTimeout(200)
@@ -229,14 +229,14 @@ test('figures: there and back again, the laboratory stays as it was', async ({ o
   await page.waitForSelector('#ring', { state: 'visible' })
   holds(!(await page.isVisible('#figures')), 'the figures are still to be seen')
   await page.waitForFunction(time => window.ringroad.frame.time > time, time)
-  // What was paused stays so.
+  // A paused run stays paused.
   await page.click('#play')
   const paused = await page.evaluate(() => window.ringroad.frame.time)
   await page.click('#open-figures')
   await page.waitForSelector('#figures', { state: 'visible' })
   await page.click('#open-figures')
   await page.waitForSelector('#ring', { state: 'visible' })
-  equal(await page.evaluate(() => window.ringroad.playing), false, 'playing although it was paused')
+  equal(await page.evaluate(() => window.ringroad.playback.playing), false, 'playing although it was paused')
   equal(await page.evaluate(() => window.ringroad.frame.time), paused, 'time')
   equal(await page.evaluate(() => window.ringroad.snapshot.scenario.vehicles), 40, 'vehicles')
 })
@@ -251,7 +251,7 @@ for (const [width, height] of [[1280, 800], [390, 844]]) {
   })
 }
 
-test('figures: dark where the page is, and a picture wider than a phone fades where it goes on', async ({ open }) => {
+test('figures: dark on a dark page, and a picture wider than a phone fades at its edge', async ({ open }) => {
   for (const [colorScheme, dark] of [['light', false], ['dark', true]]) {
     const page = await open('figures.html', { colorScheme, viewport: { width: 390, height: 844 } })
     await page.waitForSelector('#figure-fundamental-diagram .run')

@@ -1,6 +1,6 @@
-// Where the page runs, and what it says where it cannot.
+// Where the page runs: sites, frames, files and security policies; and what it says where it cannot run.
 import { readFileSync } from 'node:fs'
-import { dist, equal, holds, positions, ready, root, test } from './harness.mjs'
+import { dist, equal, holds, positions, ready, root, test } from './helpers.mjs'
 
 /** The ring moves: positions are read twice. */
 async function moves(at, core) {
@@ -102,6 +102,25 @@ test('the laboratory loads nothing of the figures, and says when they cannot be 
   await page.waitForSelector('#figures .figure .run')
   holds(asked.some(path => script.test(path)), 'the figures came from elsewhere')
   equal(page.problems.join(), '', 'errors on the page')
+})
+
+test('a dialog is loaded when it is first opened, and the page says when it cannot be', async ({ open, address }) => {
+  const page = await open('about:blank', { reducedMotion: 'reduce' })
+  const asked = []
+  page.on('request', request => asked.push(new URL(request.url()).pathname))
+  const script = /^\/assets\/dialogs.*\.js$/
+  await page.goto(`${address}/index.html`)
+  await ready(page)
+  equal(asked.filter(path => script.test(path)).join(), '', 'loaded with the laboratory')
+  await page.click('#open-help')
+  await page.waitForSelector('#help[open]')
+  equal(asked.filter(path => script.test(path)).length, 1, 'scripts of the dialogs')
+  const cut = await open('about:blank', { reducedMotion: 'reduce' })
+  await cut.route(url => script.test(url.pathname), route => route.abort())
+  await cut.goto(`${address}/index.html`)
+  await ready(cut)
+  await cut.click('#open-share')
+  await cut.waitForSelector('#trouble:not([hidden])')
 })
 
 test('says why: the site under a policy without WebAssembly', async ({ open }) => {

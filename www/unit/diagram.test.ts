@@ -2,9 +2,9 @@ import { expect, test } from 'vitest'
 import { WORD, spot } from '../src/charts/axes'
 import { TO, colour, rateAt } from '../src/views/stability/growth_map'
 
-test('a word lies within its region and leaves the point free, or is left out', () => {
+test('a word lies within its region and does not cover the point, or is left out', () => {
   const [top, bottom] = [25, 155]
-  // Curves that fall like τ(N): far above, in the middle, at the foot; and the place of the point.
+  // Curves that fall like τ(N), at the top, in the middle and at the bottom; and places of the point.
   for (const scale of [0.2, 0.5, 1, 2, 5, 30]) {
     for (const width of [40, 150, 310]) {
       const heights = Array.from({ length: width }, (_, x) => Math.min(bottom, Math.max(top, bottom - (scale * 4000) / (x + 10))))
@@ -33,7 +33,7 @@ test('a word lies within its region and leaves the point free, or is left out', 
   expect(spot(new Array<number>(150).fill(30), 30, true, 25, 155, { x: 0, y: 0 })).toBeNull()
 })
 
-test('colours of growth: blue fades, orange grows, by signed logarithm', () => {
+test('colours of growth rates: blue for decay, orange for growth, by signed logarithm', () => {
   for (const dark of [false, true]) {
     for (const rate of [1e-3, 0.01, 0.1, 1]) {
       const [r, , b] = colour(rate, dark)

@@ -1,8 +1,8 @@
-// Bad input: a sentence where it was made, and nothing is lost.
+// Bad input: it is answered by a sentence where it was made, and the state before it stays.
 import { mkdtempSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
-import { csv, equal, holds, playTo, ready, snapshot, test } from './harness.mjs'
+import { csv, equal, holds, playTo, ready, snapshot, test } from './helpers.mjs'
 
 test('a bad link is reported entry by entry and the rest applies', async ({ open }) => {
   const page = await open('index.html#colour=red&vehicles=30&reaction-time=99&action=at%3D5%3A80%3Abrake%3D1&sensitivity=1.5')
@@ -23,11 +23,15 @@ test('a hash typed into the address opens another experiment', async ({ open }) 
   await page.waitForFunction(() => window.ringroad.snapshot.scenario.vehicles === 25)
 })
 
-test('what went wrong and an experiment’s note go when something else is opened', async ({ open }) => {
+test('problems and the note of an experiment disappear when something else is opened', async ({ open }) => {
   const page = await open('index.html', { reducedMotion: 'reduce' })
   await ready(page)
   const others = {
-    file: () => page.setInputFiles('#file', { name: 'forty.json', mimeType: 'application/json', buffer: Buffer.from('{"vehicles": 40}') }),
+    file: async () => {
+      await page.click('#open-files')
+      await page.setInputFiles('#file', { name: 'forty.json', mimeType: 'application/json', buffer: Buffer.from('{"vehicles": 40}') })
+      await page.keyboard.press('Escape')
+    },
     link: () => page.evaluate(() => void (location.hash = '#vehicles=40')),
   }
   for (const [name, other] of Object.entries(others)) {
@@ -48,7 +52,7 @@ test('what went wrong and an experiment’s note go when something else is opene
   holds((await page.textContent('#preset')).startsWith('Three lanes.'), await page.textContent('#preset'))
 })
 
-test('what cannot be done is refused in words: an action without its car, and any after a crash', async ({ open }) => {
+test('an action without its car, and any action after a crash, is refused with a sentence', async ({ open }) => {
   const page = await open('index.html#reaction-time=1.2&action=at%3D0%3A1%3Anudge%3D1', { reducedMotion: 'reduce' })
   await ready(page)
   await page.click('#tab-actions')
@@ -68,7 +72,7 @@ test('what cannot be done is refused in words: an action without its car, and an
   holds(await page.isEnabled('#brake'), 'a brake that stays shut')
 })
 
-test('after a crash Play is grey, and its keys say why nothing goes on', async ({ open }) => {
+test('after a crash Play is disabled, and its keys say why the run does not go on', async ({ open }) => {
   const page = await open('index.html#reaction-time=1.2&action=at%3D0%3A1%3Anudge%3D1', { reducedMotion: 'reduce' })
   await ready(page)
   const colour = () => page.evaluate(() => getComputedStyle(document.querySelector('#play')).backgroundColor)
@@ -86,7 +90,7 @@ test('after a crash Play is grey, and its keys say why nothing goes on', async (
   }
 })
 
-test('an experiment that is changed is not that experiment any more', async ({ open }) => {
+test('an experiment that is changed is no longer shown as that experiment', async ({ open }) => {
   const page = await open('index.html', { reducedMotion: 'reduce' })
   await ready(page)
   const changes = {
@@ -134,12 +138,12 @@ test('fields of the tabs and of the data say what they take', async ({ open }) =
   await page.waitForSelector('#export-text:not([hidden])')
 })
 
-test('arrows lead back to what was opened; where nothing was touched there is none', async ({ open }) => {
+test('arrows go back to the value that was opened; unchanged parameters have none', async ({ open }) => {
   const page = await open('index.html', { reducedMotion: 'reduce' })
   await ready(page)
   await page.click('#more-controls')
   const back = page.locator('.control .back:visible')
-  equal(await back.count(), 0, 'arrows on a page that nobody touched')
+  equal(await back.count(), 0, 'arrows on an unchanged page')
   for (const [field, value] of [['#p-until', '300'], ['#p-reaction_time-number', '0.5']]) {
     const first = await page.inputValue(field)
     await page.fill(field, value)
@@ -212,7 +216,7 @@ test('a number out of range gets a sentence and the last good value stays', asyn
   equal(page.problems.join(), '', 'errors on the page')
 })
 
-test('a complaint goes when its number goes: something is set, or an experiment opens', async ({ open }) => {
+test('the message about a refused number disappears when something is set or opened', async ({ open }) => {
   const page = await open('index.html', { reducedMotion: 'reduce' })
   await ready(page)
   const others = {

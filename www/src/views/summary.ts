@@ -1,17 +1,17 @@
-// The verdict: what theory says of this ring, and what the run has shown so far. During a slider's movement it
-// speaks of what would be.
-import { el } from '../ui/dom'
+// The stability summary: what theory says of this ring, and the growth that the run has shown so far. While a control is moved,
+// it is about the value that the control would set.
+import { button, el } from '../ui/dom'
 import type { Session } from '../app/session'
 import type { Verdict } from '../core/protocol'
 import { text } from '../text'
 
-const t = text.verdict
+const t = text.summary
 
-export function verdictView(session: Session): { element: HTMLElement; preview: (v: Verdict | null) => void } {
+export function summaryView(session: Session): { element: HTMLElement; preview: (summary: Verdict | null) => void } {
   const mark = el('strong')
   const sentence = el('span', { class: 'sentence' })
   const measured = el('span', { class: 'measured' })
-  const more = el('button', { type: 'button', hidden: true, onclick: () => void session.extend() }, t.goOn)
+  const more = button({ hidden: true, onclick: () => void session.extend() }, t.goOn)
   const element = el('div', { id: 'verdict', class: 'message' }, mark, el('div', {}, sentence, measured), more)
   let preview: Verdict | null = null
 

@@ -1,6 +1,8 @@
-// What the browser tests share: the built page in Chromium, opened in every way that it promises.
+// What the browser tests share: the built page in Chromium, served with different security policies, and the helpers of the tests.
+// The tests run under node:test, one browser for each file.
 import { spawnSync } from 'node:child_process'
 import { createHash } from 'node:crypto'
+import { after, before, test as nodeTest } from 'node:test'
 import { fileURLToPath } from 'node:url'
 import { chromium } from 'playwright-core'
 import { serve } from './serve.mjs'
@@ -21,9 +23,6 @@ const HEADERS = {
   'policy-no-wasm': html(SITE),
 }
 
-const tests = []
-export const test = (name, run) => tests.push({ name, run })
-
 export const equal = (is, should, what) => {
   if (is !== should) throw new Error(`${what}: ${JSON.stringify(is)} instead of ${JSON.stringify(should)}`)
 }
@@ -39,43 +38,40 @@ export function ringroad(...args) {
   return run.stdout
 }
 
-export async function runAll(pattern) {
-  const server = await serve(dist, HEADERS)
-  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] })
-  let passed = 0
-  let failed = 0
-  for (const { name, run } of tests.filter(t => t.name.includes(pattern ?? ''))) {
-    const opened = []
-    const context = {
-      address: server.address,
-      browser,
-      /** A page at an address below the server, or anywhere else. */
-      async open(address, options = {}) {
-        const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options })
-        opened.push(context)
-        const page = await context.newPage()
-        page.problems = []
-        page.on('pageerror', e => page.problems.push(e.message))
-        await page.goto(/^(file|http|about|data):/.test(address) ? address : `${server.address}/${address}`)
-        return page
-      },
-    }
-    const before = Date.now()
-    try {
-      await run(context)
-      passed++
-      console.log(`ok      ${name} (${((Date.now() - before) / 1000).toFixed(1)} s)`)
-    } catch (e) {
-      failed++
-      console.log(`FAILED  ${name}\n        ${String(e.stack ?? e).split('\n').slice(0, 4).join('\n        ')}`)
-    }
-    for (const context of opened) await context.close()
-  }
+let server
+let browser
+
+before(async () => {
+  server = await serve(dist, HEADERS)
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] })
+})
+after(async () => {
   await browser.close()
   server.close()
-  console.log(`\n${passed} passed, ${failed} failed`)
-  process.exitCode = failed > 0 || passed === 0 ? 1 : 0
-}
+})
+
+/**
+ * A test in the browser. `run` gets the server's address; `open`, which opens a page below that address or anywhere else, each in
+ * a fresh context that is closed after the test; and `note`, which adds a line to the test's report.
+ */
+export const test = (name, run) =>
+  nodeTest(name, async t => {
+    const contexts = []
+    const open = async (address, options = {}) => {
+      const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options })
+      contexts.push(context)
+      const page = await context.newPage()
+      page.problems = []
+      page.on('pageerror', e => page.problems.push(e.message))
+      await page.goto(/^(file|http|about|data):/.test(address) ? address : `${server.address}/${address}`)
+      return page
+    }
+    try {
+      await run({ address: server.address, open, note: words => t.diagnostic(words) })
+    } finally {
+      for (const context of contexts) await context.close()
+    }
+  })
 
 // --- what tests do with an open page; `at` is a page or a frame in one
 
@@ -85,11 +81,11 @@ export const ready = at => at.waitForFunction(() => window.ringroad?.frame, null
 /** Plays as fast as it goes until that time, then pauses. */
 export async function playTo(at, time, playback = 100) {
   await at.evaluate(([x]) => {
-    window.ringroad.setPlayback(x)
-    window.ringroad.play()
+    window.ringroad.playback.setFactor(x)
+    window.ringroad.playback.play()
   }, [playback])
   await at.waitForFunction(t => window.ringroad.frame.time >= t || window.ringroad.frame.finished, time, { timeout: 60_000 })
-  await at.evaluate(() => window.ringroad.pause())
+  await at.evaluate(() => window.ringroad.playback.pause())
   await at.waitForTimeout(100)
 }
 

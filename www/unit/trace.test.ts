@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest'
-import { before, most, trace } from '../src/charts/line_chart'
+import { before, most, trace } from '../src/charts/trace'
 
 /** What is drawn: lines, each a list of points. */
 function drawn(time: readonly number[], values: readonly (number | null)[], first = 0, scale = 10): [number, number][][] {
@@ -19,7 +19,7 @@ test('few values are drawn as they are, with gaps where there is none', () => {
   expect(drawn([0, 1, 2], [1, 2])).toEqual([[[0, 1], [10, 2]]])
 })
 
-test('many values in a column: no peak is lost, and the line leaves where it should', () => {
+test('many values in a column of pixels: no peak is lost, and the line ends at the last value', () => {
   const count = 10_000
   const time = Array.from({ length: count }, (_, k) => k)
   const values = time.map(k => Math.sin(k * 0.7) * (1 + (k % 97)))

@@ -1,7 +1,7 @@
-// Accessibility, keyboard, and boxes that fit.
+// Accessibility: axe-core, the keyboard, reduced motion, and boxes that fit and do not overlap.
 import { readFileSync } from 'node:fs'
 import { fileURLToPath } from 'node:url'
-import { equal, holds, playTo, ready, test } from './harness.mjs'
+import { equal, holds, playTo, ready, test } from './helpers.mjs'
 
 const axe = readFileSync(fileURLToPath(new URL('../node_modules/axe-core/axe.min.js', import.meta.url)), 'utf8')
 
@@ -23,6 +23,7 @@ for (const colorScheme of ['light', 'dark']) {
     }
     for (const dialog of ['share', 'files', 'help']) {
       await page.click(`#open-${dialog}`)
+      await page.waitForSelector(`#${dialog}[open]`)
       await clean(page, dialog)
       await page.keyboard.press('Escape')
     }
@@ -69,13 +70,13 @@ test('keys play, step, nudge, brake and help; sliders speak with units', async (
   const page = await open('index.html', { reducedMotion: 'reduce' })
   await ready(page)
   await page.evaluate(() => document.activeElement?.blur())
-  equal(await page.evaluate(() => window.ringroad.playing), false, 'playing although less motion is asked for')
+  equal(await page.evaluate(() => window.ringroad.playback.playing), false, 'playing although less motion is asked for')
   await page.keyboard.press('.')
   await page.waitForFunction(() => window.ringroad.frame.step === 1)
   await page.keyboard.press('Space')
-  await page.waitForFunction(() => window.ringroad.playing && window.ringroad.frame.step > 5)
+  await page.waitForFunction(() => window.ringroad.playback.playing && window.ringroad.frame.step > 5)
   await page.keyboard.press('Space')
-  equal(await page.evaluate(() => window.ringroad.playing), false, 'playing after the second space')
+  equal(await page.evaluate(() => window.ringroad.playback.playing), false, 'playing after the second space')
   await page.keyboard.press('b')
   await page.keyboard.press('n')
   await page.waitForFunction(() => window.ringroad.snapshot.scenario.actions.length === 3)
@@ -88,7 +89,7 @@ test('keys play, step, nudge, brake and help; sliders speak with units', async (
   equal(await page.evaluate(() => window.ringroad.watched), 1, 'watched car')
 })
 
-test('beside the map its numbers leave the name room, and the charts’ unit the topmost number', async ({ open }) => {
+test('numbers do not cover the name of the map’s axis, nor the unit of the charts', async ({ open }) => {
   for (const length of [1000, 5000, 10000, 300000]) {
     const page = await open('about:blank', { reducedMotion: 'reduce' })
     await page.addInitScript(() => {
@@ -132,20 +133,20 @@ test('a hidden page stops and goes on where it was', async ({ open }) => {
   equal(await page.evaluate(() => window.ringroad.frame.step), step, 'steps while hidden')
   await page.evaluate(() => Object.defineProperty(document, 'hidden', { configurable: true, get: () => false }))
   await page.waitForFunction(s => window.ringroad.frame.step > s, step)
-  holds((await page.evaluate(() => window.ringroad.frame.step)) < step + 500, 'time that nobody saw was made up for')
+  holds((await page.evaluate(() => window.ringroad.frame.step)) < step + 500, 'the time in which the page was hidden was made up for')
 })
 
 test('a machine that cannot keep up says so', async ({ open }) => {
   const page = await open('index.html#vehicles=60000&length=1200000')
   await ready(page)
   await page.evaluate(() => {
-    window.ringroad.setPlayback(100)
-    window.ringroad.play()
+    window.ringroad.playback.setFactor(100)
+    window.ringroad.playback.play()
   })
   await page.waitForFunction(() => document.querySelector('.transport .message').textContent.includes('manages'), null, { timeout: 20_000 })
 })
 
-/** Everything that a person sees lies inside the page, is not cut, and covers nothing else. */
+/** Faults of the layout: visible elements that leave the page, are cut, or cover others. */
 const boxes = () => {
   const faults = []
   const seen = e => e.checkVisibility({ visibilityProperty: true }) && !e.closest('.hidden, dialog:not([open])')
@@ -239,9 +240,9 @@ for (const [width, height] of [
   [1024, 700],
   [390, 844],
 ]) {
-  test(`what is said and chosen moves nothing: ${width} × ${height}`, async ({ open }) => {
+  test(`messages and choices do not move the layout: ${width} × ${height}`, async ({ open }) => {
     const heights = new Set()
-    // Growing to a crash; fading to the end of the run; a verdict that changes lanes; drivers who differ.
+    // Growth up to a crash; decay up to the end of the run; a summary whose lane changes; heterogeneous drivers.
     for (const link of ['reaction-time=0.75&action=at%3D0%3A1%3Anudge%3D1', 'reaction-time=0.6&until=100&action=at%3D0%3A1%3Anudge%3D1', 'lanes=3&vehicles=60&reaction-time=0.3&start=one-lane', 'reaction-time=0.6&driver=10%25:sensitivity=2']) {
       const page = await open(`index.html#${link}`, { viewport: { width, height }, reducedMotion: 'reduce' })
       await ready(page)
@@ -260,7 +261,7 @@ for (const [width, height] of [
   })
 }
 
-test('on the ring the watched car’s name and the way of travel do not cover each other', async ({ open }) => {
+test('on the ring the name of the watched car and the direction of travel do not cover each other', async ({ open }) => {
   const page = await open('about:blank', { reducedMotion: 'reduce' })
   await page.addInitScript(() => {
     window.written = {}

@@ -1,24 +1,27 @@
-// Two views in one document: the laboratory and the paper's figures. The figures are loaded when they are first shown.
+// The link between the two views of the page, the laboratory and the paper's figures. The figures are loaded when they are
+// first shown.
 import { hashOf, type PageOptions } from '../app/url'
 import { el } from '../ui/dom'
 import { loadFigures } from './figures/load'
 import type { Session } from '../app/session'
 import { text } from '../text'
 
-export interface Doors {
-  /** The link to the other view. */
+export interface FiguresLink {
+  /** The link to the view that is not shown. */
   readonly link: HTMLAnchorElement
   show(view: PageOptions['view']): Promise<void>
 }
 
-export function doors(session: Session, place: HTMLElement): Doors {
+/** `place`: the element that gets the figures. */
+export function figuresLink(session: Session, place: HTMLElement): FiguresLink {
   let figures: HTMLElement | null = null
   let loaded = false
-  let left = false
+  /** Whether the run was playing when the laboratory was left. */
+  let wasPlaying = false
   const open = () => document.body.dataset.view === 'figures'
   const link = el('a', { class: 'button', id: 'open-figures', href: '#view=figures' }, text.header.figures)
   link.addEventListener('click', event => {
-    // By hand: in a srcdoc frame a link to # leads to the page around it.
+    // Not left to the browser: in a srcdoc frame a link to # leads to the page around the frame.
     event.preventDefault()
     location.hash = hashOf(session.snapshot.link, open() ? 'lab' : 'figures')
   })
@@ -27,13 +30,12 @@ export function doors(session: Session, place: HTMLElement): Doors {
     link.textContent = open() ? text.header.lab : text.header.figures
     link.href = open() ? '#view=lab' : '#view=figures'
     if (!open()) {
-      // The run goes on as it was left.
-      if (left) session.play()
-      left = false
+      if (wasPlaying) session.playback.play()
+      wasPlaying = false
       return
     }
-    left ||= session.playing
-    session.pause()
+    wasPlaying ||= session.playback.playing
+    session.playback.pause()
     figures ??= place.appendChild(el('main', { id: 'figures' }))
     if (loaded) return
     loaded = true
@@ -41,10 +43,10 @@ export function doors(session: Session, place: HTMLElement): Doors {
       const { figuresView } = await loadFigures()
       figures.replaceChildren(...(await figuresView(session)))
     } catch (e) {
-      // Whoever comes back tries again.
+      // Tried again when the figures are shown the next time.
       loaded = false
       const why = e instanceof Error ? e.message : String(e)
-      figures.replaceChildren(el('p', { role: 'alert' }, `${text.trouble.title}: ${why}`))
+      figures.replaceChildren(el('p', { role: 'alert' }, `${text.problem.title}: ${why}`))
     }
   }
   return { link, show }

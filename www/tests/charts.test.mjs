@@ -1,5 +1,5 @@
-// The charts: what the cursor reads is what was measured, by pointer, by finger and by key.
-import { equal, holds, playTo, ready, test } from './harness.mjs'
+// The charts: the cursor reads the measured values, moved by pointer, touch or keys.
+import { equal, holds, playTo, ready, test } from './helpers.mjs'
 
 const still = { reducedMotion: 'reduce' }
 
@@ -21,7 +21,7 @@ test('the chart of speeds reads what was measured, under the mouse', async ({ op
   await ready(page)
   await playTo(page, 120)
   const box = await page.locator('#speeds canvas').boundingBox()
-  holds(!(await page.isVisible('#speeds .tip')), 'read although nobody points')
+  holds(!(await page.isVisible('#speeds .tip')), 'a reading without a pointer')
   const seen = new Set()
   for (const part of [0.25, 0.5, 0.9]) {
     await page.mouse.move(box.x + part * box.width, box.y + box.height / 2)
@@ -38,10 +38,10 @@ test('the chart of speeds reads what was measured, under the mouse', async ({ op
   }
   equal(seen.size, 3, 'different times')
   await page.mouse.move(5, 5)
-  holds(!(await page.isVisible('#speeds .tip')), 'read although the mouse has gone')
+  holds(!(await page.isVisible('#speeds .tip')), 'a reading after the mouse has left')
 })
 
-test('the charts read by key, and say it', async ({ open }) => {
+test('the charts are read by keys, for screen readers, too', async ({ open }) => {
   const page = await open('index.html', still)
   await ready(page)
   await page.evaluate(() => window.ringroad.preset('load-balance'))
@@ -73,7 +73,7 @@ test('the charts read by key, and say it', async ({ open }) => {
   holds((await value('#panel-lanes .chart >> nth=1')).endsWith(`flow ${flow}`), `${await value('#panel-lanes .chart >> nth=1')}, ${flow}`)
 })
 
-test('a finger on the chart leaves its reading', async ({ open }) => {
+test('a touch of the chart leaves its reading', async ({ open }) => {
   const page = await open('index.html', { ...still, viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true })
   await ready(page)
   await playTo(page, 60)
