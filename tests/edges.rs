@@ -2,8 +2,8 @@
 
 use ringroad::numerics::random::Generator;
 use ringroad::scenario::{Scenario, Start};
+use ringroad::simulation::Side;
 use ringroad::simulation::attempt_sampler::Sampler;
-use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 
 /// Attempts a change in every step in which there is frustration; the coin falls as told.

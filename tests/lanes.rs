@@ -11,7 +11,7 @@ use ringroad::scenario::Scenario;
 use ringroad::scenario::action::Action;
 use ringroad::simulation::attempt_sampler::{ExponentialClock, Literal, Sampler};
 
-use ringroad::simulation::lane_order::Side;
+use ringroad::simulation::Side;
 use ringroad::simulation::{Event, Simulation};
 
 /// How often something happened over all scenarios: a comparison of nothing with nothing would pass too.

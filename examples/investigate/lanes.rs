@@ -2,8 +2,8 @@
 //! parameters. One order of all vehicles round the ring is kept sorted, so that who is ahead and who passed whom
 //! costs a sweep and not a loop over all pairs.
 
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_core::{Rng, SeedableRng};
 use ringroad::numerics::exp::exp_within;
 use std::fmt;
 

@@ -9,9 +9,9 @@ use ringroad::numerics::random::{Generator, Stream};
 use ringroad::scenario::action::{Action, Effect, VehicleSelector};
 use ringroad::scenario::driver::Driver;
 use ringroad::scenario::{Scenario, Start};
+use ringroad::simulation::Side;
 use ringroad::simulation::attempt_sampler::Sampler;
 use ringroad::simulation::frustration::EQUAL;
-use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 
 /// A vehicle ahead: it is `constant + s_it − s_own` metres away.
