@@ -126,9 +126,7 @@ mod tests {
         let mut travel = TravelBounds::default();
         let mut s = vec![0.0; padded(n)];
         assert_eq!(due(&mut detection, &s, travel), (0..n).collect::<Vec<_>>(), "all at first");
-        for j in 0..n {
-            detection.checked(j, s[j], travel, [10.0, 10.0]);
-        }
+        (0..n).for_each(|j| detection.checked(j, 0.0, travel, [10.0, 10.0]));
         // Nine metres more than the slowest, ten more.
         travel.advance((0.0, 9.0));
         (s[1], s[n - 1]) = (9.0, 9.0);

@@ -1,5 +1,5 @@
-//! Random scenarios: crowded and sparse rings, tiny and long ones, few vehicles over many lanes, mixed drivers,
-//! delays of any length, steps up to half a second, and actions of every kind at any time.
+//! Random scenarios: crowded and sparse rings, tiny and long ones, few vehicles over many lanes, heterogeneous drivers,
+//! delays of any length, steps up to half a second, and all sorts of actions at any time.
 
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -12,7 +12,7 @@ fn parameter(name: &str) -> &'static Parameter {
     Parameter::named(name).unwrap()
 }
 
-/// A parameter of drivers with a value that goes with every other one here.
+/// A parameter of drivers with a value that is valid together with every other one drawn here.
 fn setting() -> impl Strategy<Value = (&'static Parameter, f64)> {
     prop_oneof![
         (5.0..40.0).prop_map(|v| (parameter("max_speed"), v)),
@@ -25,7 +25,7 @@ fn setting() -> impl Strategy<Value = (&'static Parameter, f64)> {
     ]
 }
 
-fn who(vehicles: usize) -> impl Strategy<Value = VehicleSelector> {
+fn selector(vehicles: usize) -> impl Strategy<Value = VehicleSelector> {
     prop_oneof![
         1 => Just(VehicleSelector::All),
         6 => (1..=vehicles).prop_map(VehicleSelector::Vehicle),
@@ -53,11 +53,8 @@ pub fn action(vehicles: usize, length: f64, until: f64) -> impl Strategy<Value =
         3 => 0.0..until,
         1 => Just(0.5 * until),
     ];
-    (at, who(vehicles), prop::collection::vec(effect(length), 1..3)).prop_map(|(at, who, effects)| Action {
-        at,
-        who,
-        effects,
-    })
+    (at, selector(vehicles), prop::collection::vec(effect(length), 1..3))
+        .prop_map(|(at, who, effects)| Action { at, who, effects })
 }
 
 /// Number of vehicles and length of the ring.
@@ -113,7 +110,7 @@ pub fn scenarios(lanes: RangeInclusive<usize>) -> impl Strategy<Value = Scenario
     lanes
         .prop_flat_map(base)
         .prop_flat_map(|scenario| {
-            let exception = (who(scenario.vehicles), prop::collection::vec(setting(), 1..3))
+            let exception = (selector(scenario.vehicles), prop::collection::vec(setting(), 1..3))
                 .prop_map(|(who, values)| DriverOverride { who, values });
             let action = || action(scenario.vehicles, scenario.length, scenario.until);
             let actions = prop_oneof![
