@@ -1,7 +1,7 @@
 //! Cost of a step, in time per vehicle-update: an iteration of criterion's is one update of one vehicle.
 //!
-//! `cargo bench --bench step`; beside the program's own cases a plain scalar Euler step with libm's exponential, so
-//! that ratios hold on any machine, and runs side by side in one vector, to be held against one run after the other.
+//! `cargo bench --bench step`; to compare, beside the program's own cases: a plain scalar Euler step with libm's exponential, so
+//! that ratios hold on any machine, and runs side by side in one vector.
 
 #[cfg(target_arch = "wasm32")]
 fn main() {}
@@ -60,12 +60,12 @@ mod cases {
             let count = self.rows.len();
             let next = (self.head + 1) % count;
             // The row to be overwritten is the one of `delay` steps ago.
-            let seen = std::mem::take(&mut self.rows[next]);
-            let mut row = seen.clone();
+            let perceived = std::mem::take(&mut self.rows[next]);
+            let mut row = perceived.clone();
             let now = &self.rows[self.head];
             for j in 0..n {
                 let lead = if j + 1 == n { 0 } else { j + 1 };
-                let h = self.headway + (seen[lead] - seen[j]);
+                let h = self.headway + (perceived[lead] - perceived[j]);
                 row[j] = now[j] + (40.0 - 40.0 * libm::exp(-(1.0 / 40.0) * (h - 7.5))).max(0.0) * 0.01;
             }
             self.rows[next] = row;
@@ -73,48 +73,49 @@ mod cases {
         }
     }
 
-    /// So many runs of equal drivers side by side, vehicle j of all of them in one array: the step of the core in its
-    /// common case, without what makes it right in the others.
+    /// `RUNS` runs of equal drivers side by side, vehicle j of all of them in one array: the step of the core in its most
+    /// common case only.
     pub(crate) struct SideBySide<const RUNS: usize> {
         rows: Vec<Vec<[f64; RUNS]>>,
         head: usize,
-        gap: Vec<[f64; RUNS]>,
-        shortfall: Vec<[f64; RUNS]>,
+        relative: Vec<[f64; RUNS]>,
+        deficit: Vec<[f64; RUNS]>,
         speed: Vec<[f64; RUNS]>,
     }
 
     impl<const RUNS: usize> SideBySide<RUNS> {
         pub(crate) fn new(vehicles: usize, delay: usize) -> Self {
-            let shortfall = 40.0 * libm::exp(-(20.0 - 7.5) / 40.0);
+            let deficit = 40.0 * libm::exp(-(20.0 - 7.5) / 40.0);
             let all = |value: f64| vec![[value; RUNS]; vehicles];
-            let (mut rows, mut gap) = (vec![all(0.0); delay + 1], all(0.0));
-            // Little enough for the polynomial.
+            let (mut rows, mut relative) = (vec![all(0.0); delay + 1], all(0.0));
+            // Small enough for the polynomial.
             for row in &mut rows {
                 row[0] = [1e-3; RUNS];
             }
-            (gap[0], gap[vehicles - 1]) = ([-1e-3; RUNS], [1e-3; RUNS]);
-            Self { rows, head: 0, gap, shortfall: all(shortfall), speed: all(40.0 - shortfall) }
+            (relative[0], relative[vehicles - 1]) = ([-1e-3; RUNS], [1e-3; RUNS]);
+            Self { rows, head: 0, relative, deficit: all(deficit), speed: all(40.0 - deficit) }
         }
 
         pub(crate) fn step(&mut self) {
-            let n = self.gap.len();
+            let n = self.relative.len();
             let next = (self.head + 1) % self.rows.len();
             let mut row = std::mem::take(&mut self.rows[next]);
             let now = &self.rows[self.head];
             let (first, mut own, mut little) = (row[0], row[0], true);
             for j in 0..n {
                 let lead = if j + 1 == n { first } else { row[j + 1] };
-                let (gap, shortfall, speed) = (&mut self.gap[j], &mut self.shortfall[j], &mut self.speed[j]);
+                let (relative, deficit, speed) =
+                    (&mut self.relative[j], &mut self.deficit[j], &mut self.speed[j]);
                 for k in 0..RUNS {
                     row[j][k] = now[j][k] + speed[k] * 0.01;
-                    let seen = lead[k] - own[k];
-                    let a = -(1.0 / 40.0) * (seen - gap[k]);
+                    let perceived = lead[k] - own[k];
+                    let a = -(1.0 / 40.0) * (perceived - relative[k]);
                     let a2 = a * a;
                     little &= a2 <= 1.0 / 1_048_576.0;
                     let high = (0.5 + a * (1.0 / 6.0)) + a2 * (1.0 / 24.0);
-                    shortfall[k] *= (1.0 + a) + high * a2;
-                    gap[k] = seen;
-                    let v = 40.0 - shortfall[k];
+                    deficit[k] *= (1.0 + a) + high * a2;
+                    relative[k] = perceived;
+                    let v = 40.0 - deficit[k];
                     speed[k] = if v > 0.0 { v } else { 0.0 };
                 }
                 own = lead;

@@ -1,4 +1,4 @@
-//! A step asks for no memory, and a simulation for as much a vehicle as it says.
+//! A step allocates no memory, and a simulation takes as much memory a vehicle as its documentation states.
 #![allow(unsafe_code)] // an allocator that counts is an `unsafe impl`
 
 use ringroad::scenario::{Scenario, Start};
@@ -6,6 +6,7 @@ use ringroad::simulation::{Event, Simulation};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+/// Counts the allocations of each thread and the bytes it holds.
 struct Counting;
 
 thread_local! {
@@ -13,7 +14,7 @@ thread_local! {
     static BYTES: Cell<usize> = const { Cell::new(0) };
 }
 
-// SAFETY: every call is passed on to the system's allocator as it is.
+// SAFETY: every call is passed on unchanged to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.with(|count| count.set(count.get() + 1));
@@ -51,7 +52,7 @@ fn measure(scenario: &Scenario) -> (u64, usize) {
 }
 
 #[test]
-fn it_counts() {
+fn the_allocator_counts() {
     let before = ALLOCATIONS.with(Cell::get);
     drop(std::hint::black_box(vec![1_u8; 10]));
     assert!(ALLOCATIONS.with(Cell::get) > before);
@@ -65,7 +66,7 @@ fn a_step_allocates_nothing() {
     assert_eq!(measure(&scenario).0, 0, "one lane");
 
     scenario.overrides.push("20%:sensitivity=1.5,reaction-time=0.2".parse().unwrap());
-    assert_eq!(measure(&scenario).0, 0, "mixed drivers");
+    assert_eq!(measure(&scenario).0, 0, "heterogeneous drivers");
 
     scenario = Scenario { vehicles: 50, lanes: 2, time_step: 0.05, start: Start::OneLane(1), ..scenario };
     scenario.driver.reaction_time = 0.0;

@@ -1,12 +1,13 @@
-//! What statistics cannot see: lane changing where everything is exact.
+//! Lane changing at the edges of its rules, in scenarios where every sum is exact: ties, vehicles exactly alongside,
+//! headways of exactly d, whole laps.
 
 use ringroad::numerics::random::Generator;
 use ringroad::scenario::{Scenario, Start};
+use ringroad::simulation::Side;
 use ringroad::simulation::attempt_sampler::Sampler;
-use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 
-/// Attempts a change in every step in which there is frustration; the coin falls as told.
+/// Attempts a change in every step in which there is frustration; the coin always falls on the same side.
 #[derive(Clone)]
 struct Eager<const HEADS: bool>;
 
@@ -22,7 +23,7 @@ impl<const HEADS: bool> Sampler for Eager<HEADS> {
     }
 }
 
-/// 64 m, steps of 1/16 s, d = 8 m, r = 1 per second, p = 1: all sums exact. Everybody stands.
+/// 64 m, steps of 1/16 s, d = 8 m, r = 1 per second, p = 1: so that all sums are exact. All vehicles are braked.
 fn standing(vehicles: usize, lanes: usize, start: Start) -> Scenario {
     let mut scenario =
         Scenario { vehicles, lanes, start, length: 64.0, time_step: 0.0625, ..Scenario::default() };
@@ -63,8 +64,8 @@ fn exactly_alongside_is_not_ahead_and_equal_headways_change_nothing() {
 }
 
 #[test]
-fn a_gap_of_exactly_d_is_refused_ahead_and_behind() {
-    // Vehicle 1 follows 2 at 12 m; vehicle 3, alone in lane 2, is next to the gap it would like to enter.
+fn a_distance_of_exactly_d_is_refused_ahead_and_behind() {
+    // Vehicle 1 follows 2 at 12 m; vehicle 3 is alone in lane 2, where vehicle 1 wants to go.
     for (nudge, enters) in
         [(8.0, false), (8.0 + 1e-9, true), (-8.0, false), (-8.0 - 1e-9, true), (0.0, false), (30.0, true)]
     {
@@ -87,8 +88,8 @@ fn a_gap_of_exactly_d_is_refused_ahead_and_behind() {
         };
         // Own headway 12 m; that in lane 2 is larger unless vehicle 3 is ahead by less.
         let adjacent = if nudge > 0.0 { nudge } else { 64.0 + nudge };
-        let wishes = adjacent > 12.0;
-        assert_eq!(events, if wishes { vec![expected] } else { vec![] }, "nudge {nudge}");
+        let attempts = adjacent > 12.0;
+        assert_eq!(events, if attempts { vec![expected] } else { vec![] }, "nudge {nudge}");
     }
     // Ahead by d, and the own headway smaller still: vehicles 5 m long at 7 m.
     for (nudge, enters) in [(8.0, false), (8.0 + 1e-9, true)] {
@@ -105,7 +106,7 @@ fn a_gap_of_exactly_d_is_refused_ahead_and_behind() {
 }
 
 #[test]
-fn an_empty_lane_is_infinitely_good_and_alone_in_a_lane_one_follows_oneself() {
+fn an_empty_lane_is_infinitely_better_and_a_vehicle_alone_follows_itself() {
     let scenario = with(standing(2, 2, Start::OneLane(1)), &["at=0:2:frustration-rate=0"]);
     let (simulation, events) = run::<Eager<true>>(&scenario, 1);
     assert_eq!(events, [Event::LaneChange { vehicle: 0, from: 0, to: 1, frustration: 0.0625 }]);
@@ -115,7 +116,7 @@ fn an_empty_lane_is_infinitely_good_and_alone_in_a_lane_one_follows_oneself() {
     }
     assert_eq!(simulation.vehicles_per_lane(), [1, 1]);
     assert_eq!(simulation.frustration(0), 0.0);
-    // Alone, half a lap apart: 64 m here, 32 m there. Nobody wishes to change.
+    // Each is alone in its lane, half a lap from the other: 64 m in its own lane, 32 m in the other. No attempts.
     let (_, events) = run::<Eager<true>>(&scenario, 100);
     assert_eq!(events.len(), 1);
 }
@@ -148,11 +149,11 @@ fn the_far_side_of_the_ring_is_no_pass() {
     assert_eq!(moved(0.0, -0.5), [pass(0, 1)]);
 }
 
-/// Never changes lane.
+/// Never attempts a lane change.
 #[derive(Clone)]
-struct Content;
+struct Never;
 
-impl Sampler for Content {
+impl Sampler for Never {
     fn new(_: usize, _: f64, _: Generator) -> Self {
         Self
     }
@@ -166,10 +167,10 @@ impl Sampler for Content {
 
 #[test]
 fn several_laps_of_lead_are_a_pass_each() {
-    // The first vehicle stands at 0, the second one starts beside it and drives ten laps and a half.
+    // The first vehicle stands at 0, the second one starts alongside and drives ten laps and a half.
     let mut scenario = standing(2, 2, Start::Uniform);
     scenario.actions = vec!["at=0:1:brake=1000,frustration-rate=0,pass-frustration=0.25".parse().unwrap()];
-    let mut simulation = Simulation::<Content>::with_sampler(&scenario).unwrap();
+    let mut simulation = Simulation::<Never>::with_sampler(&scenario).unwrap();
     let mut passes = 0;
     while simulation.distance(1) < 10.5 * 64.0 {
         let lead = (simulation.displacements()[1] / 64.0).ceil();
@@ -183,8 +184,8 @@ fn several_laps_of_lead_are_a_pass_each() {
 }
 
 #[test]
-fn three_lanes_with_a_tie_are_told_apart_by_the_coin() {
-    // Lane 2: vehicles 3 and 4 at 0 and 32 m, of which 4 comes as near as 8 m; lanes 1 and 3: alike, far from it.
+fn a_tie_between_two_adjacent_lanes_is_broken_by_the_coin() {
+    // Lane 2: vehicles 3 and 4 at 0 and 32 m, of which 4 is moved to 8 m; lanes 1 and 3: equal, all vehicles far from vehicle 3.
     let scenario = with(
         standing(6, 3, Start::Uniform),
         &[

@@ -1,4 +1,4 @@
-//! The same bits everywhere: native half. Every width of vector gives the same tables; their hashes go to the file
+//! The same bits everywhere, the native part. Every width of vector gives the same tables; their hashes go to the file
 //! that the environment variable `RINGROAD_HASHES` names, where the tests in the browser and in Node find them.
 #![cfg(not(target_arch = "wasm32"))]
 

@@ -1,4 +1,4 @@
-//! Lane changing, held against a slow twin that is written from the sentences of the model.
+//! Lane changing, held against the slow second implementation in `common/twin.rs`.
 #![cfg(not(target_arch = "wasm32"))] // proptest is not there
 
 mod common;
@@ -11,12 +11,12 @@ use ringroad::scenario::Scenario;
 use ringroad::scenario::action::Action;
 use ringroad::simulation::attempt_sampler::{ExponentialClock, Literal, Sampler};
 
-use ringroad::simulation::lane_order::Side;
+use ringroad::simulation::Side;
 use ringroad::simulation::{Event, Simulation};
 
-/// How often something happened over all scenarios: a comparison of nothing with nothing would pass too.
+/// How often each event happened over all scenarios, so that the test can require that it did happen.
 #[derive(Debug, Default)]
-struct Seen {
+struct Counts {
     scenarios: usize,
     steps: usize,
     changes: usize,
@@ -27,7 +27,7 @@ struct Seen {
     live: usize,
 }
 
-/// Everything that can be read, the same for both.
+/// Compares everything that can be read.
 fn compare<S: Sampler>(fast: &Simulation<S>, twin: &Twin<S>) {
     let n = fast.vehicles();
     for j in 0..n {
@@ -53,7 +53,7 @@ fn compare<S: Sampler>(fast: &Simulation<S>, twin: &Twin<S>) {
     for (lane, &count) in fast.vehicles_per_lane().iter().enumerate() {
         assert_eq!(twin.lane.iter().filter(|&&l| l == lane).count(), count, "vehicles in lane {lane}");
     }
-    // Vehicles in one place have an order by rounding only; they have touched anyway.
+    // Vehicles in the same place have an order by rounding only, and have touched already.
     if (0..n).all(|j| twin.headway(j) > 1e-6) {
         for j in 0..n {
             assert_eq!(
@@ -68,16 +68,16 @@ fn compare<S: Sampler>(fast: &Simulation<S>, twin: &Twin<S>) {
     }
 }
 
-/// Runs both to the end; `live` are actions made at their time instead of known beforehand.
-fn run<S: Sampler>(scenario: &Scenario, live: &[Action], seen: &mut Seen) {
+/// Runs both to the end; `live` are actions that are made while running.
+fn run<S: Sampler>(scenario: &Scenario, live: &[Action], counts: &mut Counts) {
     let mut fast = Simulation::<S>::with_sampler(scenario).unwrap();
     let mut twin = Twin::<S>::new(scenario);
-    seen.scenarios += 1;
+    counts.scenarios += 1;
     loop {
         for action in live {
             if scenario.steps(action.at) == fast.step_index() && fast.act(action.clone()).is_ok() {
                 twin.act_live(action.clone(), fast.displacements());
-                seen.live += 1;
+                counts.live += 1;
             }
         }
         compare(&fast, &twin);
@@ -88,13 +88,13 @@ fn run<S: Sampler>(scenario: &Scenario, live: &[Action], seen: &mut Seen) {
         fast.step();
         assert_eq!(canonical(fast.events()), canonical(&twin.events), "in step {}", twin.step);
         assert_eq!(fast.collision().is_some(), twin.collided);
-        seen.steps += 1;
+        counts.steps += 1;
         for event in &twin.events {
             match event {
-                Event::LaneChange { .. } => seen.changes += 1,
-                Event::Refused { .. } => seen.refused += 1,
-                Event::Pass { .. } => seen.passes += 1,
-                Event::Collision { .. } => seen.collisions += 1,
+                Event::LaneChange { .. } => counts.changes += 1,
+                Event::Refused { .. } => counts.refused += 1,
+                Event::Pass { .. } => counts.passes += 1,
+                Event::Collision { .. } => counts.collisions += 1,
             }
         }
         if twin.collided {
@@ -102,7 +102,7 @@ fn run<S: Sampler>(scenario: &Scenario, live: &[Action], seen: &mut Seen) {
         }
         twin.forward_all(fast.displacements());
     }
-    seen.coins += twin.coins;
+    counts.coins += twin.coins;
 }
 
 fn runner(cases: u32, seed: u64) -> TestRunner {
@@ -115,7 +115,7 @@ fn runner(cases: u32, seed: u64) -> TestRunner {
     })
 }
 
-/// A scenario and actions to be made live.
+/// A scenario, and actions to be made while running.
 fn with_live_actions() -> impl Strategy<Value = (Scenario, Vec<Action>)> {
     scenarios(2..=5).prop_flat_map(|scenario| {
         let action = scenarios::action(scenario.vehicles, scenario.length, scenario.until);
@@ -124,18 +124,18 @@ fn with_live_actions() -> impl Strategy<Value = (Scenario, Vec<Action>)> {
 }
 
 fn twins_agree<S: Sampler>(cases: u32, seed: u64) {
-    let seen = std::cell::RefCell::new(Seen::default());
+    let counts = std::cell::RefCell::new(Counts::default());
     runner(cases, seed)
         .run(&with_live_actions(), |(scenario, live)| {
-            run::<S>(&scenario, &live, &mut seen.borrow_mut());
+            run::<S>(&scenario, &live, &mut counts.borrow_mut());
             Ok(())
         })
         .unwrap();
-    let seen = seen.into_inner();
-    println!("{seen:?}");
-    assert!(seen.scenarios >= 200);
-    assert!(seen.changes > 1000 && seen.refused > 1000 && seen.passes > 1000, "{seen:?}");
-    assert!(seen.collisions > 20 && seen.coins > 100 && seen.live > 100, "{seen:?}");
+    let counts = counts.into_inner();
+    println!("{counts:?}");
+    assert!(counts.scenarios >= 200);
+    assert!(counts.changes > 1000 && counts.refused > 1000 && counts.passes > 1000, "{counts:?}");
+    assert!(counts.collisions > 20 && counts.coins > 100 && counts.live > 100, "{counts:?}");
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn the_twin_has_the_same_events_by_the_exponential_clock() {
 fn a_single_lane_is_the_same_to_the_last_bit() {
     runner(100, 3)
         .run(&scenarios(1..=1), |scenario| {
-            run::<ExponentialClock>(&scenario, &[], &mut Seen::default());
+            run::<ExponentialClock>(&scenario, &[], &mut Counts::default());
             Ok(())
         })
         .unwrap();

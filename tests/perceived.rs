@@ -1,4 +1,4 @@
-//! Perceived headways against a history that forgets nothing, with reaction times that change on the way.
+//! Perceived headways, held against a history of all positions since t = 0, with reaction times that change on the way.
 
 use ringroad::scenario::Scenario;
 use ringroad::scenario::action::Action;
@@ -11,16 +11,16 @@ fn target(plan: Plan, time: f64) -> f64 {
     plan.iter().rev().find(|(from, _)| *from <= time).unwrap().1
 }
 
-/// Runs to 60 s in steps of 0.05 s with the plan for `who`, the other vehicles at 0.2 s; `most` steps of delay come
-/// into force.
-fn hold(who: &str, members: std::ops::Range<usize>, plan: Plan, most: usize) {
+/// Runs to 60 s in steps of 0.05 s with the plan for the vehicles of `selector`, which are `members`; the other vehicles have
+/// 0.2 s. The longest delay that comes into force is `most` steps.
+fn hold(selector: &str, members: std::ops::Range<usize>, plan: Plan, most: usize) {
     let mut scenario =
         Scenario { vehicles: 12, length: 300.0, time_step: 0.05, until: 60.0, ..Scenario::default() };
     scenario.driver.reaction_time = 0.2;
     scenario.actions.push("at=0:3:nudge=2".parse().unwrap());
     scenario.actions.push("at=25:5:nudge=1.5,brake=1".parse().unwrap());
     for (at, value) in plan {
-        scenario.actions.push(format!("at={at}:{who}:reaction-time={value}").parse::<Action>().unwrap());
+        scenario.actions.push(format!("at={at}:{selector}:reaction-time={value}").parse::<Action>().unwrap());
     }
     let mut simulation = Simulation::new(&scenario).unwrap();
     let start: Vec<f64> = (0..12).map(|j| simulation.headway(j)).collect();
@@ -34,14 +34,14 @@ fn hold(who: &str, members: std::ops::Range<usize>, plan: Plan, most: usize) {
             let seconds = if members.contains(&j) { target(plan, simulation.time() + 1e-9) } else { 0.2 };
             let steps = (seconds / 0.05).round() as usize;
             delay[j] = if step == 0 { 0 } else { steps.min(delay[j] + 1) };
-            assert!(delay[j] <= step, "nobody sees what was before the start");
+            assert!(delay[j] <= step, "no driver perceives positions from before the start");
             assert_eq!(simulation.delay_steps(j), delay[j], "vehicle {j} at {} s", simulation.time());
             let (then, leader) = (&past[step - delay[j]], (j + 1) % 12);
-            let seen = start[j] + (then[leader] - then[j]);
-            assert_eq!(simulation.perceived_headway(j), seen, "vehicle {j} at {} s", simulation.time());
+            let perceived = start[j] + (then[leader] - then[j]);
+            assert_eq!(simulation.perceived_headway(j), perceived, "vehicle {j} at {} s", simulation.time());
             let now = &past[step];
             let formula = simulation.headway(j) - (now[leader] - then[leader]) + (now[j] - then[j]);
-            assert!((seen - formula).abs() < 1e-9, "the model's own words");
+            assert!((perceived - formula).abs() < 1e-9, "the formula of the model");
             longest = longest.max(delay[j]);
         }
         if simulation.is_finished() {
@@ -64,7 +64,7 @@ fn one_driver_differs() {
 }
 
 #[test]
-fn what_one_action_takes_another_of_the_same_step_gives_back() {
+fn a_second_action_of_the_same_step_can_restore_a_long_delay() {
     hold("2-3", 1..3, &[(0.0, 0.9), (10.0, 0.0), (10.0, 0.9), (20.0, 0.1), (20.0, 1.1)], 22);
 }
 

@@ -8,8 +8,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use ringroad::scenario::action::Action;
 use ringroad::scenario::{Scenario, Start};
+use ringroad::simulation::Side;
 use ringroad::simulation::frustration::{attempt_probability, attempt_probability_in_step};
-use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 
 fn config(cases: u32, seed: u64) -> Config {

@@ -2,8 +2,8 @@
 //! program, are its parameters. The order of all vehicles along the ring is kept sorted, so that leaders and passes are
 //! found in one sweep instead of a loop over all pairs.
 
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_core::{Rng, SeedableRng};
 use ringroad::numerics::exp::exp_within;
 use std::fmt;
 

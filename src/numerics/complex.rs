@@ -1,7 +1,8 @@
 //! Complex functions with the same bits everywhere.
 //!
-//! `num_complex` computes its own with the platform's library as soon as any crate of the build asks for "std";
-//! these use [`crate::numerics::exp`] and `libm` alone. They also keep the digits that exp − 1 and ln(1 + w) lose near 0.
+//! The functions of `num_complex` use the platform's library as soon as any crate of the build turns its feature "std" on;
+//! these use [`crate::numerics::exp`] and `libm` alone. [`exp_m1`] and [`ln_1p`] keep the digits near 0 that e^z − 1 and
+//! ln(1 + w) lose.
 
 use crate::numerics::exp::exp as real_exp;
 pub(crate) use num_complex::Complex64;
@@ -23,7 +24,7 @@ pub(crate) fn exp(z: Complex64) -> Complex64 {
     Complex64::new(r * libm::cos(z.im), r * libm::sin(z.im))
 }
 
-/// e^z − 1.
+/// e^z − 1, without loss of digits near z = 0.
 pub(crate) fn exp_m1(z: Complex64) -> Complex64 {
     let half_sine = libm::sin(0.5 * z.im);
     let re = libm::expm1(z.re) * libm::cos(z.im) - 2.0 * half_sine * half_sine;
@@ -35,11 +36,11 @@ pub(crate) fn ln(z: Complex64) -> Complex64 {
     Complex64::new(libm::log(norm(z)), arg(z))
 }
 
-/// ln(1 + w).
+/// ln(1 + w), without loss of digits near w = 0.
 pub(crate) fn ln_1p(w: Complex64) -> Complex64 {
     let one_more = Complex64::new(1.0 + w.re, w.im);
     let square = w.re * (2.0 + w.re) + w.im * w.im;
-    // Near u = 0 the square cancels, and the plain form is the exact one.
+    // Near w = −1 the square cancels, and the plain form is the exact one.
     let re = if square > -0.5 { 0.5 * libm::log1p(square) } else { libm::log(norm(one_more)) };
     Complex64::new(re, arg(one_more))
 }
@@ -63,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn functions_and_their_inverses_belong_together() {
+    fn functions_undo_their_inverses() {
         for k in 0..200 {
             let angle = f64::from(k) * 0.37;
             let r = real_exp(f64::from(k % 40) - 30.0);

@@ -9,7 +9,15 @@
 //!
 //! **Outside.** [`exp`] gives 0 below −745.14, +∞ above 709.79, subnormal numbers between −745.14 and −708.4,
 //! NaN for NaN. [`exp_within`] holds its argument to ±700 first, which is what the car-following law needs:
-//! e^700 and all above mean "stand still", e^−700 and all below mean "as fast as possible".
+//! e^700 and all above mean "stand still", e^−700 and all below mean "maximum speed".
+//!
+//! ```
+//! use ringroad::numerics::exp::{exp, exp_within};
+//!
+//! assert_eq!(exp(1.0), std::f64::consts::E);
+//! assert_eq!((exp(-800.0), exp(800.0)), (0.0, f64::INFINITY));
+//! assert_eq!(exp_within(800.0), exp(700.0));
+//! ```
 
 use crate::numerics::simd::Real;
 
@@ -55,13 +63,13 @@ fn reduced<T: Real>(x: T) -> (T, T) {
     (shifted, all(1.0) + (r + tail * r2))
 }
 
-/// e^x for −700 ≤ x ≤ 700, of the nearer end outside; branch-free. NaN gives NaN.
+/// e^x for −700 ≤ x ≤ 700; outside, the value at the nearer end. Without a branch. NaN gives NaN.
 #[inline(always)]
 pub fn exp_within(x: f64) -> f64 {
     all_within(x)
 }
 
-/// [`exp_within`] of one number or of a chunk of them.
+/// [`exp_within`] of one number, or of every number of a chunk.
 #[inline(always)]
 pub(crate) fn all_within<T: Real>(x: T) -> T {
     let x = x.least(T::all(700.0)).most(T::all(-700.0));
@@ -162,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn the_reference_knows_e_and_its_powers() {
+    fn the_reference_has_e_to_thirty_digits() {
         // e to 32 digits: 2.7182818284590452353602874713527
         let ((high, low), k) = reference::exp(1.0);
         let scale = f64::from_bits(((1023 + k) as u64) << 52);
@@ -207,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn it_never_falls_where_its_argument_rises() {
+    fn it_is_monotonic() {
         let mut last = 0.0;
         for i in -70_000..70_000 {
             let value = exp(f64::from(i) * 0.01);

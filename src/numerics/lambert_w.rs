@@ -4,22 +4,22 @@
 //! (1996). With principal logarithms, w = W_k(z) is the one solution of **w + ln w = ln z + 2πik** (their
 //! equation 4.4; on branch −1 with −1/e ≤ z < 0 the 2πik falls away, since w is real). Branches other than the
 //! principal one are solved in that form by Newton's method: it names the branch, neither overflows nor
-//! underflows, and is nearly linear. The principal one, where it is near 0 or near the branch point −1/e, is
-//! solved in the form w·e^w = z by Halley's.
+//! underflows, and is nearly linear. The principal branch passes through 0 and through the branch point −1/e; it is solved
+//! in the form w·e^w = z by Halley's method.
 //!
-//! The crate `lambert_w` does this too, and serves the tests as a reference. It is not used here since near z = 0 it
-//! can end on another branch than the one asked for (W₁ of 5.2·10⁻⁷ − 1.9·10⁻⁷i becomes W₃), and since its functions come from the platform
-//! when any other crate of a build turns "std" on, so that bits would differ.
+//! The crate `lambert_w` does this too, and is the reference of the tests. It is not used here for two reasons: near z = 0
+//! it can give another branch than the requested one (W₁ of 5.2·10⁻⁷ − 1.9·10⁻⁷i becomes W₃), and as soon as any other
+//! crate of a build turns its feature "std" on, it takes functions from the platform, so that bits would differ.
 
 use super::complex::{Complex64, arg, exp, ln, norm, sqrt};
 use std::f64::consts::{E, PI};
 
 /// W_k(z). At z = 0 the principal branch is 0 and the others are −∞.
-pub fn lambert_w(k: i32, z: Complex64) -> Complex64 {
+pub(crate) fn lambert_w(k: i32, z: Complex64) -> Complex64 {
     if z == Complex64::ZERO {
         return Complex64::new(if k == 0 { 0.0 } else { f64::NEG_INFINITY }, 0.0);
     }
-    // Both halves of the plane alike: W_k of the conjugate is the conjugate of W_{−k}.
+    // Both halves of the plane by one function: W_k of the conjugate is the conjugate of W_{−k}.
     if arg(z) < 0.0 { upper(-k, z.conj()).conj() } else { upper(k, z) }
 }
 

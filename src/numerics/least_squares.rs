@@ -1,4 +1,12 @@
-//! Fits: a straight line, and an exponential by non-linear least squares.
+//! Fits by least squares: a straight line with the standard error of its slope, and an exponential.
+//!
+//! ```
+//! use ringroad::numerics::least_squares::line;
+//!
+//! let fit = line(&[(0.0, 1.0), (1.0, 3.1), (2.0, 4.9), (3.0, 7.0)]).expect("points with different x");
+//! assert!((fit.slope - 1.98).abs() < 1e-12);
+//! assert!(fit.slope_error < 0.1);
+//! ```
 
 use crate::numerics::exp::exp;
 
@@ -13,9 +21,9 @@ pub struct Line {
     pub slope_error: f64,
 }
 
-/// The straight line of least squares through at least two points (x, y) with different x.
+/// The straight line of least squares through at least two points (x, y) with different x; none for fewer.
 ///
-/// The standard error allows for residuals that follow each other, as those of a time series do: the number of
+/// The standard error allows for residuals that are correlated with their successors, as those of a time series are: the number of
 /// independent points is taken as n(1 − ρ)/(1 + ρ), ρ being the residuals' correlation with their successors
 /// (Santer et al., Journal of Geophysical Research 105, 2000), within 3 … n.
 pub fn line(points: &[(f64, f64)]) -> Option<Line> {
@@ -55,8 +63,8 @@ pub fn log_linear(points: &[(f64, f64)]) -> Option<Exponential> {
     Some(Exponential { amplitude: exp(line.intercept), rate: line.slope, rate_error: line.slope_error })
 }
 
-/// a·exp(k·x) by non-linear least squares of positive values: the Gauss–Newton method from the log-linear fit,
-/// steps halved until the sum of squares falls, until it falls no more.
+/// a·exp(k·x) by non-linear least squares of positive values: the Gauss–Newton method, started at the log-linear fit. A
+/// step that does not reduce the sum of squares is halved until it does; where none does, the fit is done.
 pub fn exponential(points: &[(f64, f64)]) -> Option<Exponential> {
     let start = log_linear(points)?;
     let squares = |a: f64, k: f64| -> f64 {
@@ -133,9 +141,9 @@ mod tests {
         assert!((log_linear(&points).unwrap().rate - fit.rate).abs() > 0.1);
     }
 
-    /// The spread of slopes over many noisy series is what the standard error says, also for noise with memory.
+    /// The spread of slopes over many noisy series is what the standard error says, also for correlated noise.
     #[test]
-    fn the_standard_error_covers_noise_with_memory() {
+    fn the_standard_error_is_right_for_correlated_noise() {
         let mut generator =
             crate::numerics::random::Generator::new(3, crate::numerics::random::Stream::Start);
         for memory in [0.0, 0.7] {

@@ -1,19 +1,28 @@
-//! Vectors as wide as the machine has them, chosen at run time; the one room with `unsafe` in it.
+//! Vectors as wide as the machine has them, chosen at run time. This is the only file with `unsafe` code.
 //!
 //! A *kernel* is a loop over chunks of [`CHUNK`] numbers. `kernel!` compiles it once for each width that the
 //! target knows. On x86-64 the compiler turns the chunks' arrays into vectors of that width; in WebAssembly, where
 //! the page's code is built for size, they are vectors of 128 bits by name. All versions do the same operations on
-//! each number, each rounding once, so that results do not depend on the width: a test holds one against the other.
+//! each number, each rounding once, so that results do not depend on the width; a test compares them.
+//!
+//! ```
+//! use ringroad::numerics::simd::Width;
+//!
+//! let widths = Width::available();
+//! assert_eq!(widths[0], Width::NARROWEST);
+//! assert_eq!(widths.last(), Some(&Width::widest()));
+//! ```
 
 use std::ops::{Add, Deref, DerefMut, Mul, Sub};
 
 /// Numbers that a kernel handles at a time: a whole number of vectors of every width. In WebAssembly, where there is one
 /// width and there are only sixteen registers, two vectors.
-pub const CHUNK: usize = if cfg!(all(target_arch = "wasm32", target_feature = "simd128")) { 4 } else { 8 };
+pub(crate) const CHUNK: usize =
+    if cfg!(all(target_arch = "wasm32", target_feature = "simd128")) { 4 } else { 8 };
 
-/// What a formula needs to be written once, for one number and for a chunk of them.
+/// The operations of formulas that are written once, for one number and for a chunk of them.
 pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    /// The same number everywhere.
+    /// The same number in every place.
     fn all(value: f64) -> Self;
     /// `other` where it is smaller; NaN in `self` stays.
     fn least(self, other: Self) -> Self;
@@ -130,7 +139,7 @@ mod chunk {
         /// (smallest, largest)
         #[inline(always)]
         pub(crate) fn reduced(self) -> (f64, f64) {
-            // Hidden from the compiler, which else picks the vectors of the whole loop apart for this.
+            // Hidden from the compiler, which otherwise takes the vectors of the whole loop apart for this.
             let [a, b, c, d, e, f, g, h] = std::hint::black_box(self.least.0);
             let [p, q, r, s, t, u, v, w] = std::hint::black_box(self.most.0);
             (
@@ -351,26 +360,25 @@ impl Chunk {
     }
 }
 
-/// Numbers that begin where a line of the cache does, so that no chunk lies across two lines.
+/// Numbers that begin where a cache line does, so that no chunk lies across two lines.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Aligned {
-    lines: Vec<Line>,
+    lines: Vec<CacheLine>,
     len: usize,
 }
 
-#[repr(align(64))]
+#[repr(C, align(64))]
 #[derive(Clone, Copy, Debug)]
-#[expect(dead_code, reason = "read as the numbers of a slice")]
-struct Line([f64; Line::LEN]);
+struct CacheLine([f64; CacheLine::LEN]);
 
-impl Line {
+impl CacheLine {
     const LEN: usize = 8;
 }
 
 impl Aligned {
-    /// So many of the same number.
+    /// `len` times the same number.
     pub(crate) fn filled(value: f64, len: usize) -> Self {
-        Self { lines: vec![Line([value; Line::LEN]); len.div_ceil(Line::LEN)], len }
+        Self { lines: vec![CacheLine([value; CacheLine::LEN]); len.div_ceil(CacheLine::LEN)], len }
     }
 
     /// These numbers.
@@ -382,7 +390,7 @@ impl Aligned {
 
     /// Bytes held.
     pub(crate) fn bytes(&self) -> usize {
-        self.lines.capacity() * size_of::<Line>()
+        self.lines.capacity() * size_of::<CacheLine>()
     }
 }
 
@@ -391,7 +399,8 @@ impl Deref for Aligned {
     #[inline(always)]
     #[allow(unsafe_code)]
     fn deref(&self) -> &[f64] {
-        // SAFETY: lines are arrays of numbers, one after the other, and there are at least `len` numbers in them.
+        // SAFETY: a cache line is an array of eight numbers of 64 bytes together, without padding (`repr(C)`); the lines
+        // lie one after the other, and hold at least `len` numbers.
         unsafe { std::slice::from_raw_parts(self.lines.as_ptr().cast(), self.len) }
     }
 }
@@ -405,26 +414,27 @@ impl DerefMut for Aligned {
     }
 }
 
-/// The numbers of a slice, chunk by chunk; the rest at its end is left out.
+/// The whole chunks of a slice; a rest at its end is left out.
 #[inline(always)]
 pub(crate) fn chunks(slice: &[f64]) -> &[[f64; CHUNK]] {
     slice.as_chunks().0
 }
 
-/// The same to be written to.
+/// The same, mutable.
 #[inline(always)]
 pub(crate) fn chunks_mut(slice: &mut [f64]) -> &mut [[f64; CHUNK]] {
     slice.as_chunks_mut().0
 }
 
-/// Width of the vectors that a kernel uses; one that this machine has, since only [`Width::available`] makes wider
-/// ones than the target's own.
+/// Width of the vectors that a kernel uses. A value is always one that this machine has: only [`Width::available`] makes
+/// others than the target's own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Width(pub(crate) Kind);
+pub struct Width(pub(crate) Features);
 
+/// The processor features that a kernel is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// What the target has by itself: 128 bits on x86-64 and in WebAssembly.
+pub(crate) enum Features {
+    /// Those of the target itself: vectors of 128 bits on x86-64 and in WebAssembly.
     Target,
     /// AVX2.
     #[cfg(target_arch = "x86_64")]
@@ -436,7 +446,7 @@ pub(crate) enum Kind {
 
 impl Width {
     /// The target's own: 128 bits on every x86-64 processor and in WebAssembly with simd128.
-    pub const NARROWEST: Self = Self(Kind::Target);
+    pub const NARROWEST: Self = Self(Features::Target);
 
     /// Every width that this machine has, narrowest first.
     pub fn available() -> Vec<Self> {
@@ -445,10 +455,10 @@ impl Width {
         #[cfg(target_arch = "x86_64")]
         {
             if is_x86_feature_detected!("avx2") {
-                widths.push(Self(Kind::Bits256));
+                widths.push(Self(Features::Bits256));
             }
             if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
-                widths.push(Self(Kind::Bits512));
+                widths.push(Self(Features::Bits512));
             }
         }
         widths
@@ -478,15 +488,15 @@ macro_rules! kernel {
             #[allow(clippy::too_many_arguments)]
             fn body_512($($arg: $type),*) { body($($arg),*) }
             match width.0 {
-                $crate::numerics::simd::Kind::Target => body($($arg),*),
-                // SAFETY: a width other than the target's own comes from `Width::available`, which has asked the
-                // processor for these features.
+                $crate::numerics::simd::Features::Target => body($($arg),*),
+                // SAFETY: a width other than the target's own comes from `Width::available`, which has found
+                // these features in the processor.
                 #[cfg(target_arch = "x86_64")]
                 #[allow(unsafe_code)]
-                $crate::numerics::simd::Kind::Bits256 => unsafe { body_256($($arg),*) },
+                $crate::numerics::simd::Features::Bits256 => unsafe { body_256($($arg),*) },
                 #[cfg(target_arch = "x86_64")]
                 #[allow(unsafe_code)]
-                $crate::numerics::simd::Kind::Bits512 => unsafe { body_512($($arg),*) },
+                $crate::numerics::simd::Features::Bits512 => unsafe { body_512($($arg),*) },
             }
         }
     };

@@ -1,4 +1,13 @@
-//! What a sample says: mean, standard deviation, quantiles, and a 95 % confidence interval of the mean.
+//! Summaries of a sample: mean, standard deviation, quantiles, and a 95 % confidence interval of the mean.
+//!
+//! ```
+//! use ringroad::numerics::statistics::{Statistics, Student};
+//!
+//! let sample = Statistics::of([1.0, 2.0, 3.0, 4.0], &mut Student::default());
+//! assert_eq!((sample.count, sample.mean), (4, 2.5));
+//! // 2.5 ± 3.182·1.291/√4
+//! assert!((sample.interval[1] - 4.554).abs() < 1e-3);
+//! ```
 
 use crate::numerics::bisection::last_bit;
 use std::f64::consts::FRAC_2_PI;
@@ -9,8 +18,8 @@ const NORMAL_975: f64 = 1.959_963_984_540_054;
 /// The quantiles that a summary gives.
 pub const QUANTILES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 
-/// A sample in numbers. What it is too small for is NaN: everything without values, the standard deviation and the
-/// interval with one.
+/// The summary of a sample. What the sample is too small for is NaN: all numbers without values, the standard deviation
+/// and the interval with one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// Number of values.
@@ -26,7 +35,7 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Of these values, NaN left out; their order decides about the last bits. The interval is Student's,
+    /// The summary of these values without the NaN among them; the last bits depend on their order. The interval is Student's,
     /// mean ± t·s/√n with the 0.975 quantile t of n − 1 degrees of freedom.
     pub fn of(values: impl IntoIterator<Item = f64>, student: &mut Student) -> Self {
         let mut values: Vec<f64> = values.into_iter().filter(|v| !v.is_nan()).collect();
@@ -46,14 +55,14 @@ impl Statistics {
         }
     }
 
-    /// Of values that are 0 or 1: their mean is a share, and the interval is Wilson's score interval (Journal of
-    /// the American Statistical Association 22, 1927), which has a width also where all are alike.
+    /// The summary of values that are 0 or 1: their mean is a share, and the interval is Wilson's score interval (Journal of
+    /// the American Statistical Association 22, 1927), which has a width also where all values are equal.
     pub fn of_share(values: impl IntoIterator<Item = bool>) -> Self {
         let values = values.into_iter().map(|v| f64::from(u8::from(v)));
         let mut statistics = Self::of(values, &mut Student::default());
         let (n, p) = (statistics.count as f64, statistics.mean);
         let z2 = NORMAL_975 * NORMAL_975;
-        // The lower end; the upper one is that of the other share, seen from 1.
+        // The lower end; the upper end is 1 minus the lower end for the share of zeros.
         let low = |p: f64| {
             let centre = p + z2 / (2.0 * n);
             let half = NORMAL_975 * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
@@ -73,7 +82,7 @@ pub fn mean(values: &[f64]) -> f64 {
 
 /// Quantile `p` of ascending values, by linear interpolation between the order statistics at (n − 1)·p: type 7 of
 /// Hyndman and Fan (American Statistician 50, 1996), the default of R and `NumPy`.
-pub fn quantile(sorted: &[f64], p: f64) -> f64 {
+fn quantile(sorted: &[f64], p: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else {
         return f64::NAN;
     };
@@ -84,8 +93,8 @@ pub fn quantile(sorted: &[f64], p: f64) -> f64 {
 }
 
 /// P(|T| ≤ t) of Student's distribution with a whole number ν of degrees of freedom: the finite sums of Abramowitz
-/// and Stegun, 26.7.3 and 26.7.4, with θ = arctan(t/√ν). All terms are positive, so that nothing is lost.
-pub fn student_central(t: f64, freedom: usize) -> f64 {
+/// and Stegun, 26.7.3 and 26.7.4, with θ = arctan(t/√ν). All terms are positive, so that no digits cancel.
+fn student_central(t: f64, freedom: usize) -> f64 {
     let nu = freedom as f64;
     let squared_cos = nu / (nu + t * t);
     let sin = t / (nu + t * t).sqrt();
@@ -103,7 +112,7 @@ pub fn student_central(t: f64, freedom: usize) -> f64 {
     if odd { FRAC_2_PI * (libm::atan(t / nu.sqrt()) + sin * sum) } else { sin * sum }
 }
 
-/// 0.975 quantiles of Student's distribution, each found once.
+/// 0.975 quantiles of Student's distribution; each is computed once and kept.
 #[derive(Clone, Debug, Default)]
 pub struct Student(std::collections::BTreeMap<usize, f64>);
 
@@ -189,7 +198,7 @@ mod tests {
 
     /// Wilson's interval of 0 of 10 is [0, z²/(n + z²)], that of 10 of 10 its mirror image.
     #[test]
-    fn a_share_has_a_width_also_where_all_are_alike() {
+    fn a_share_has_a_width_also_where_all_values_are_equal() {
         let bound = NORMAL_975 * NORMAL_975 / (10.0 + NORMAL_975 * NORMAL_975);
         let none = Statistics::of_share([false; 10]);
         assert!(none.interval[0] == 0.0 && (none.interval[1] - bound).abs() < 1e-15, "{none:?}");

@@ -1,10 +1,19 @@
 //! The rules of frustration, and the probability of an attempt to change lanes.
 //!
 //! P(φ) = (2/π)·arctan φ is the probability of an attempt within the next second; in a step of dt seconds it is
-//! P* = 1 − (1 − P)^dt. How attempts are drawn from it is told by [`crate::simulation::attempt_sampler`].
+//! P* = 1 − (1 − P)^dt. [`super::attempt_sampler`] draws attempts with this probability.
+//!
+//! ```
+//! use ringroad::simulation::frustration::{attempt_probability, attempt_probability_in_step};
+//!
+//! assert_eq!(attempt_probability(1.0), 0.5);
+//! // Two steps of half a second without an attempt are a second without an attempt.
+//! let none = 1.0 - attempt_probability_in_step(1.0, 0.5);
+//! assert!((none * none - 0.5).abs() < 1e-15);
+//! ```
 
+use super::lane_order::AdjacentLeaders;
 use crate::numerics::simd::{CHUNK, Chunk, Real, chunks, chunks_mut, kernel};
-use crate::simulation::lane_order::AdjacentLeaders;
 use std::f64::consts::FRAC_2_PI;
 
 /// P(φ), the probability of an attempt within one second.
@@ -26,44 +35,44 @@ pub fn attempt_probability_in_step(frustration: f64, time_step: f64) -> f64 {
     -libm::expm1(-hazard(frustration) * time_step)
 }
 
-/// Headways (m) that differ by no more are equal. The own headway comes from the start, the adjacent one from
-/// positions; vehicles side by side in equal lanes would else be frustrated by rounding.
+/// Headways (m) that differ by no more than this count as equal. The own headway is computed from that at the start, the
+/// adjacent one from positions; without the tolerance, rounding would frustrate vehicles side by side in equal lanes.
 pub const EQUAL: f64 = 1e-6;
 
 /// φ after rules 1 and 2: up by `change` where the adjacent headway is larger than the own one, down where it is
 /// smaller, never below 0, unchanged where they are equal to within [`EQUAL`].
 #[inline(always)]
-pub fn compared(frustration: f64, own: f64, adjacent: f64, change: f64) -> f64 {
+pub(crate) fn compared(frustration: f64, own: f64, adjacent: f64, change: f64) -> f64 {
     let up = if own + EQUAL < adjacent { change } else { 0.0 };
     let down = if own > adjacent + EQUAL { change } else { 0.0 };
     let next = frustration + up - down;
     if next > 0.0 { next } else { 0.0 }
 }
 
-/// What drivers with one delay compare in a step in which nobody has passed them; all slices padded.
+/// What drivers with one delay compare; all slices padded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Comparison<'a> {
-    /// Displacements as they are seen, m.
-    pub(crate) seen: &'a [f64],
-    /// The leaders in the adjacent lanes.
-    pub(crate) beside: [&'a AdjacentLeaders; 2],
+    /// Displacements as perceived, m.
+    pub(crate) perceived: &'a [f64],
+    /// The adjacent leaders, on the outer side and on the inner side.
+    pub(crate) adjacent: [&'a AdjacentLeaders; 2],
     /// Offsets of the own leaders, m.
     pub(crate) offsets: &'a [f64],
-    /// Gaps to them as they are seen, m.
-    pub(crate) gaps: &'a [f64],
+    /// Their displacements relative to the vehicles, as perceived, m.
+    pub(crate) relative: &'a [f64],
     /// r·dt of every driver.
     pub(crate) change: &'a [f64],
 }
 
 kernel! {
-    /// Rules 1 and 2 chunk by chunk, from chunk `next` up to chunk `end` or the first in which a clock runs out, to
-    /// which nothing is done: then `next` is that one.
-    pub(crate) fn compare_quietly(
+    /// Rules 1 and 2 for vehicles that were not passed, chunk by chunk from chunk `next` on. It stops before chunk `end`, or
+    /// before the first chunk in which the clock of a vehicle runs out, which stays unchanged; `next` is then that chunk.
+    pub(crate) fn compare_chunks(
         comparison: Comparison<'_>, frustration: &mut [f64], clocks: &mut [f64], per_step: f64, next: &mut usize, end: usize,
     ) {
-        let Comparison { seen, beside: [outer, inner], offsets, gaps, change } = comparison;
-        let (own, offsets, gaps) = (&chunks(seen)[..end], &chunks(offsets)[..end], &chunks(gaps)[..end]);
-        let change = &chunks(change)[..end];
+        let Comparison { perceived, adjacent: [outer, inner], offsets, relative, change } = comparison;
+        let (own, offsets) = (&chunks(perceived)[..end], &chunks(offsets)[..end]);
+        let (relative, change) = (&chunks(relative)[..end], &chunks(change)[..end]);
         let (outer_offsets, inner_offsets) = (&chunks(&outer.offsets)[..end], &chunks(&inner.offsets)[..end]);
         let outer_vehicles = &outer.vehicles.as_chunks::<CHUNK>().0[..end];
         let inner_vehicles = &inner.vehicles.as_chunks::<CHUNK>().0[..end];
@@ -72,20 +81,20 @@ kernel! {
         let (per_step, equal, none) = (Chunk::splat(per_step), Chunk::splat(EQUAL), Chunk::splat(0.0));
         for k in *next..end {
             let own = Chunk::load(&own[k]);
-            let outer = Chunk::load(&outer_offsets[k]) + (Chunk::gather(seen, &outer_vehicles[k]) - own);
-            let inner = Chunk::load(&inner_offsets[k]) + (Chunk::gather(seen, &inner_vehicles[k]) - own);
+            let outer = Chunk::load(&outer_offsets[k]) + (Chunk::gather(perceived, &outer_vehicles[k]) - own);
+            let inner = Chunk::load(&inner_offsets[k]) + (Chunk::gather(perceived, &inner_vehicles[k]) - own);
             let adjacent = inner.most(outer);
-            let own = Chunk::load(&offsets[k]) + Chunk::load(&gaps[k]);
+            let own = Chunk::load(&offsets[k]) + Chunk::load(&relative[k]);
             let change = Chunk::load(&change[k]);
             let up = (own + equal).where_below(adjacent, change);
             let down = (adjacent + equal).where_below(own, change);
-            let felt = none.most((Chunk::load(&frustration[k]) + up) - down);
-            let left = Chunk::load(&clocks[k]) - felt * per_step;
+            let updated = none.most((Chunk::load(&frustration[k]) + up) - down);
+            let left = Chunk::load(&clocks[k]) - updated * per_step;
             if left.reaches(none) != u8::MAX >> (8 - CHUNK) {
                 *next = k;
                 return;
             }
-            felt.store(&mut frustration[k]);
+            updated.store(&mut frustration[k]);
             left.store(&mut clocks[k]);
         }
         *next = end.max(*next);
@@ -120,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn the_four_comparisons() {
+    fn larger_smaller_equal_and_infinite_headways() {
         assert_eq!(compared(0.2, 10.0, 20.0, 0.1), 0.2 + 0.1);
         assert_eq!(compared(0.2, 20.0, 10.0, 0.1), 0.1);
         assert_eq!(compared(0.05, 20.0, 10.0, 0.1), 0.0);

@@ -1,57 +1,55 @@
-//! What was Δ ago: the displacements of all vehicles, one row a step, for as many steps as the longest reaction
-//! time in use looks back.
+//! The displacements of the past: a row of all vehicles for every step, as many rows as the longest reaction time in use
+//! looks back.
 //!
-//! A displacement is the distance driven since t = 0 plus the nudges since then. Rows lie in a ring buffer, vehicles
-//! side by side in a row, so that one step reads and writes memory in order.
+//! A displacement is the distance moved since t = 0, nudges after t = 0 included. The rows lie in a ring buffer, vehicles
+//! side by side in a row, so that a step reads and writes memory in order. A row is padded to whole chunks and then
+//! *closed*: one more chunk begins with the image of the next vehicle. On one lane, where the leader of vehicle j is
+//! j + 1, the displacements of all leaders are then the same row read from its second number on. Rows are written only
+//! through functions that close them.
 
+use super::padding::{images, padded};
 use crate::numerics::simd::{Aligned, CHUNK};
 
 /// Displacements (m) by step and vehicle.
 #[derive(Clone, Debug)]
-pub struct History {
+pub(crate) struct History {
     data: Aligned,
     vehicles: usize,
-    /// The vehicle whose image comes after the last whole chunk.
+    /// The vehicle whose image closes a row.
     closing: usize,
     /// Numbers in a row, padding included.
     width: usize,
-    /// Rows kept.
+    /// Rows kept, and rows needed from the next step on.
     rows: usize,
+    needed: usize,
     /// The row of the present step.
     head: usize,
 }
 
 impl History {
-    /// All displacements 0, with room to look back `steps` steps, and one more for the step in which delays grow.
-    pub fn new(vehicles: usize, steps: usize) -> Self {
-        // One more than a whole number of chunks: see `close`.
+    /// At t = 0, all displacements 0, for delays of up to `steps` steps.
+    pub(crate) fn new(vehicles: usize, steps: usize) -> Self {
         let width = padded(vehicles) + CHUNK;
         let rows = rows_for(steps);
-        let closing = padded(vehicles) % vehicles;
-        Self { data: Aligned::filled(0.0, width * rows), vehicles, closing, width, rows, head: 0 }
+        let data = Aligned::filled(0.0, width * rows);
+        Self { data, vehicles, closing: padded(vehicles) % vehicles, width, rows, needed: rows, head: 0 }
     }
 
     /// The row of `delay` steps ago.
     #[inline]
-    pub fn seen(&self, delay: usize) -> &[f64] {
+    pub(crate) fn row(&self, delay: usize) -> &[f64] {
         let start = self.row_start(delay);
         &self.data[start..start + self.width]
     }
 
-    /// The displacement of one vehicle `delay` steps ago.
-    #[inline]
-    pub fn at(&self, delay: usize, vehicle: usize) -> f64 {
-        self.data[self.row_start(delay) + vehicle]
-    }
-
     /// The present row.
     #[inline]
-    pub fn now(&self) -> &[f64] {
-        self.seen(0)
+    pub(crate) fn now(&self) -> &[f64] {
+        self.row(0)
     }
 
     /// Displaces a vehicle by so many metres, now.
-    pub fn displace(&mut self, vehicle: usize, metres: f64) {
+    pub(crate) fn displace(&mut self, vehicle: usize, metres: f64) {
         let start = self.row_start(0);
         for image in images(vehicle, self.vehicles) {
             self.data[start + image] += metres;
@@ -59,68 +57,81 @@ impl History {
         self.close();
     }
 
-    /// Repeats one more vehicle behind the last whole chunk, so that a row reads as closed: on one lane the
-    /// leader of every vehicle is then the next number. To be called when the present row has been written.
+    /// Goes to the next step: `write` gets its row, to be filled up to the padding's end, and the rows before it.
     #[inline]
-    pub fn close(&mut self) {
-        let start = self.row_start(0);
-        self.data[start + self.width - CHUNK] = self.data[start + self.closing];
-    }
-
-    /// Makes the next row the present one: gives it, to be written, and the others, to be read.
-    #[inline]
-    pub fn advance(&mut self) -> (&mut [f64], Past<'_>) {
+    pub(crate) fn advance<R>(&mut self, write: impl FnOnce(&mut [f64], Past<'_>) -> R) -> R {
+        if self.needed != self.rows {
+            self.resize(self.needed);
+        }
         self.head = self.after(1);
-        self.ahead(0)
+        let (row, past) = self.row_ahead(0);
+        let result = write(row, past);
+        self.close();
+        result
     }
 
-    /// The row that will be the present one so many steps on, to be written, and those that will be its past.
+    /// Goes so many steps on: `write` gets access to their rows and fills each up to the padding's end. They are closed
+    /// only then; so while they are written none of them may be read as a row of leaders.
     #[inline]
-    pub(crate) fn ahead(&mut self, steps: usize) -> (&mut [f64], Past<'_>) {
-        let start = self.after(steps) * self.width;
-        let (before, rest) = self.data.split_at_mut(start);
-        let (row, after) = rest.split_at_mut(self.width);
-        (row, Past { before, after, width: self.width })
-    }
-
-    /// Makes rows that have been written ahead the present and the past.
-    pub(crate) fn catch_up(&mut self, steps: usize) {
+    pub(crate) fn advance_many(&mut self, steps: usize, write: impl FnOnce(&mut RowsAhead<'_>)) {
+        write(&mut RowsAhead(self));
         for _ in 0..steps {
             self.head = self.after(1);
             self.close();
         }
     }
 
-    #[inline]
-    fn after(&self, steps: usize) -> usize {
-        let row = self.head + steps;
-        if row < self.rows { row } else { row - self.rows }
+    /// Whether more rows are kept than are needed; the next [`Self::advance`] drops them.
+    pub(crate) fn is_longer_than_needed(&self) -> bool {
+        self.needed < self.rows
     }
 
-    /// How far back it can look, in steps.
-    pub fn looks_back(&self) -> usize {
-        self.rows - rows_for(0)
-    }
-
-    /// Changes how far back it can look. Rows that were not kept before are not to be asked for: the delay in
-    /// force grows by at most one step per step.
-    pub fn look_back(&mut self, steps: usize) {
-        let rows = rows_for(steps);
-        if rows == self.rows {
-            return;
+    /// From now on delays are up to `steps` steps. Rows are added at once and dropped with the next step only, since
+    /// another action of this step may need them again. Added rows hold nothing: the delay in force, which grows by at
+    /// most one step per step, does not reach them before they are written.
+    pub(crate) fn require(&mut self, steps: usize) {
+        self.needed = rows_for(steps);
+        if self.needed > self.rows {
+            self.resize(self.needed);
         }
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> usize {
+        self.data.bytes()
+    }
+
+    #[cold]
+    fn resize(&mut self, rows: usize) {
         let mut data = Aligned::filled(0.0, self.width * rows);
         let kept = rows.min(self.rows);
         for delay in 0..kept {
             let target = (kept - 1 - delay) * self.width;
-            data[target..target + self.width].copy_from_slice(self.seen(delay));
+            data[target..target + self.width].copy_from_slice(self.row(delay));
         }
         (self.data, self.rows, self.head) = (data, rows, kept - 1);
     }
 
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        self.data.bytes()
+    /// Repeats one more vehicle behind the padding of the present row.
+    #[inline]
+    fn close(&mut self) {
+        let start = self.row_start(0);
+        self.data[start + self.width - CHUNK] = self.data[start + self.closing];
+    }
+
+    /// The row that will be the present one so many steps on, and those that will be its past.
+    #[inline]
+    fn row_ahead(&mut self, steps: usize) -> (&mut [f64], Past<'_>) {
+        let start = self.after(steps) * self.width;
+        let (before, rest) = self.data.split_at_mut(start);
+        let (row, after) = rest.split_at_mut(self.width);
+        (row, Past { before, after, width: self.width })
+    }
+
+    #[inline]
+    fn after(&self, steps: usize) -> usize {
+        let row = self.head + steps;
+        if row < self.rows { row } else { row - self.rows }
     }
 
     #[inline]
@@ -131,18 +142,29 @@ impl History {
     }
 }
 
-/// The rows of a [`History`] but the present one.
+/// The rows of steps that are being taken; see [`History::advance_many`].
+pub(crate) struct RowsAhead<'a>(&'a mut History);
+
+impl RowsAhead<'_> {
+    /// The row of the step that is so many steps on, to be written, and the rows before it.
+    #[inline]
+    pub(crate) fn row(&mut self, steps: usize) -> (&mut [f64], Past<'_>) {
+        self.0.row_ahead(steps)
+    }
+}
+
+/// The rows of a [`History`] but the one that is being written.
 #[derive(Clone, Copy, Debug)]
-pub struct Past<'a> {
+pub(crate) struct Past<'a> {
     before: &'a [f64],
     after: &'a [f64],
     width: usize,
 }
 
 impl<'a> Past<'a> {
-    /// The row of `delay` ≥ 1 steps ago.
+    /// The row of `delay` ≥ 1 steps before.
     #[inline]
-    pub fn seen(self, delay: usize) -> &'a [f64] {
+    pub(crate) fn row(self, delay: usize) -> &'a [f64] {
         let back = delay * self.width;
         match self.before.len().checked_sub(back) {
             Some(start) => &self.before[start..][..self.width],
@@ -151,19 +173,8 @@ impl<'a> Past<'a> {
     }
 }
 
-/// Where a vehicle stands in padded arrays: the padding repeats the first vehicles, so that whatever is done to all
-/// vehicles, chunk by chunk, is done to the images as to their originals and nothing that is computed from them differs.
-pub(crate) fn images(vehicle: usize, vehicles: usize) -> impl Iterator<Item = usize> {
-    (vehicle..padded(vehicles)).step_by(vehicles)
-}
-
-/// Vehicles padded to whole chunks.
-pub(crate) fn padded(vehicles: usize) -> usize {
-    vehicles.next_multiple_of(CHUNK)
-}
-
-/// The present row, those looked back at, and one more: the step in which a reaction time grows looks back a step
-/// farther at once. So the row before the present one is always there too, by which passes are told.
+/// Rows for delays of up to `steps` steps: the present one, those before it, and one more for the step in which a
+/// longer reaction time comes into force. So the row before the present one, which passes are told by, is always there.
 fn rows_for(steps: usize) -> usize {
     steps + 2
 }
@@ -174,27 +185,27 @@ mod tests {
 
     /// Row i holds the value i throughout.
     fn advanced(history: &mut History, value: f64) {
-        history.advance().0.fill(value);
+        history.advance(|row, _| row.fill(value));
     }
 
     #[test]
-    fn it_looks_back_as_far_as_asked_through_changes_of_length() {
+    fn it_looks_back_as_far_as_required_through_changes_of_length() {
         let mut history = History::new(3, 4);
         let mut step = 0.0;
-        for look_back in [4, 2, 7, 7, 1, 5] {
-            history.look_back(look_back);
+        for steps in [4, 2, 7, 7, 1, 5] {
+            history.require(steps);
             for _ in 0..11 {
                 step += 1.0;
                 advanced(&mut history, step);
             }
-            for delay in 0..=look_back + 1 {
-                assert_eq!(history.at(delay, 2), step - delay as f64);
+            for delay in 0..=steps + 1 {
+                assert_eq!(history.row(delay)[2], step - delay as f64);
             }
         }
-        // Growing keeps what was known.
-        history.look_back(9);
+        // What was known is kept when rows are added.
+        history.require(9);
         for delay in 0..=6 {
-            assert_eq!(history.at(delay, 0), step - delay as f64);
+            assert_eq!(history.row(delay)[0], step - delay as f64);
         }
     }
 
@@ -202,7 +213,29 @@ mod tests {
     fn it_holds_the_rows_in_use_and_no_more() {
         assert_eq!(History::new(16, 75).bytes(), (16 + 8) * 8 * 77);
         let mut history = History::new(16, 75);
-        history.look_back(10);
+        history.require(10);
+        assert!(history.is_longer_than_needed());
+        history.require(75);
+        assert!(!history.is_longer_than_needed(), "nothing is dropped before the next step");
+        history.require(10);
+        advanced(&mut history, 1.0);
         assert_eq!(history.bytes(), (16 + 8) * 8 * 12);
+    }
+
+    #[test]
+    fn every_way_to_write_a_row_closes_it() {
+        let n = CHUNK;
+        let mut history = History::new(n, 3);
+        let fill = |row: &mut [f64], value: f64| row[..n].iter_mut().for_each(|x| *x = value);
+        history.advance(|row, _| fill(row, 1.0));
+        assert_eq!(history.now()[n], 1.0);
+        history.displace(0, 0.5);
+        assert_eq!(history.now()[n], 1.5);
+        history.advance_many(2, |rows| {
+            for step in 1..=2 {
+                fill(rows.row(step).0, 1.0 + step as f64);
+            }
+        });
+        assert_eq!([0, 1, 2].map(|delay| history.row(delay)[n]), [3.0, 2.0, 1.5]);
     }
 }

@@ -1,22 +1,26 @@
-//! Who is ahead: the order of the vehicles in each lane, and for every vehicle the next one ahead in each
-//! adjacent lane, kept as vehicles pass and change lanes, never sorted.
+//! The order of the vehicles: for every vehicle the ones ahead and behind in its lane, and its adjacent leaders, the next
+//! vehicles ahead in the adjacent lanes. All are kept up to date as vehicles pass and change lanes; nothing is sorted.
 //!
 //! # Terms
 //!
-//! *Unwrapped position*: position at the start plus displacement, x = x⁰ + s. *Offset* of i seen from j: the number
+//! *Unwrapped position*: position at the start plus displacement, x = x⁰ + s. *Offset* of i relative to j: the number
 //! o = (x⁰_i − x⁰_j) − n·L with a whole number of laps n, such that the distance o + (s_i − s_j) lies in (0, L]:
-//! one exactly alongside is a lap ahead. The whole number that does it is n = ⌈g/L⌉ − 1 with g = x_i − x_j; it is
-//! found by comparing rounded sums, the same everywhere, so that "has passed" is exact and
-//! never counted twice.
+//! a vehicle exactly alongside is a lap ahead. That whole number is n = ⌈g/L⌉ − 1 with g = x_i − x_j; it is
+//! found by comparing rounded sums, which are the same on every machine, so that "has passed" is exact and
+//! no pass is counted twice.
 //!
-//! *Behind* and *ahead* in a lane are links of a circular list. *Beside*: the vehicle next ahead in an
-//! adjacent lane; the one behind that is at most alongside. Cost: O(1) a vehicle and step, plus passes and changes.
+//! # Method
+//!
+//! The vehicles of a lane form a circular list, linked both ways. The adjacent leader of a vehicle is updated from the one
+//! known before: where vehicles have passed, by walking along that lane from it; where a vehicle has changed lanes, for
+//! the vehicles around it only. Cost: O(1) a vehicle and step, plus passes and lane changes.
 
+use super::padding::{images, padded};
+use super::pass_detection::{PassDetection, ROUNDING_MARGIN};
+use super::travel_bounds::TravelBounds;
 use crate::numerics::random::{Generator, Stream};
-use crate::numerics::simd::{Aligned, CHUNK, Width};
+use crate::numerics::simd::{Aligned, Width};
 use crate::scenario::{Scenario, Start};
-use crate::simulation::history::{images, padded};
-use crate::simulation::pass_detection::{NEAR, PassDetection, TravelBounds};
 
 /// An adjacent lane: towards lane 1, or away from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,10 +32,10 @@ pub enum Side {
 }
 
 impl Side {
-    /// Both.
+    /// Both sides, the outer one first.
     pub const BOTH: [Self; 2] = [Self::Outer, Self::Inner];
 
-    /// The other one.
+    /// The other side.
     #[must_use]
     pub fn opposite(self) -> Self {
         match self {
@@ -41,10 +45,10 @@ impl Side {
     }
 }
 
-/// The next vehicle ahead in an adjacent lane, and its offset.
+/// An adjacent leader and its offset.
 ///
 /// Where there is none it is the vehicle itself with an infinite offset: +∞ for an empty lane, −∞ for no lane. So
-/// `offset + (s_i − s_j)` needs no case.
+/// `offset + (s_i − s_j)` holds in all three cases.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AdjacentLeader {
     vehicle: u32,
@@ -58,7 +62,7 @@ impl AdjacentLeader {
         self.offset.is_finite().then_some(self.vehicle as usize)
     }
 
-    /// Distance from j to it, given everyone's displacements at some time; infinite where there is none.
+    /// Distance from j to it, m, at the displacements `s`; infinite where there is none.
     #[inline(always)]
     pub(crate) fn distance(self, j: usize, s: &[f64]) -> f64 {
         self.offset + (s[self.vehicle as usize] - s[j])
@@ -73,7 +77,7 @@ impl AdjacentLeader {
     }
 }
 
-/// [`AdjacentLeader`] of all vehicles on one side, padded with vehicles that have no lane there.
+/// The adjacent leaders of all vehicles on one side, padded as for vehicles that have no lane there.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AdjacentLeaders {
     /// The vehicles.
@@ -99,43 +103,47 @@ pub(crate) struct Pass {
     pub(crate) passed: u32,
 }
 
-/// The order of the vehicles.
+/// The order of the vehicles in their lanes.
 #[derive(Clone, Debug)]
-pub struct LaneOrder {
+pub(crate) struct LaneOrder {
     length: f64,
     /// x⁰: positions at t = 0, unwrapped, m.
     start: Vec<f64>,
     lane: Vec<u8>,
     ahead: Vec<u32>,
     behind: Vec<u32>,
-    /// Offset of the leader: its headway at the start, for vehicles that still follow the same one.
+    /// Offset of the leader, m; for vehicles that still follow the same leader, the headway at the start.
     offset: Vec<f64>,
-    /// On either side; nothing on one lane.
-    beside: [AdjacentLeaders; 2],
-    watch: PassDetection,
+    /// On either side; empty on one lane.
+    adjacent: [AdjacentLeaders; 2],
+    /// The adjacent leaders are not known yet, at t = 0: they are found when they are first needed, after all nudges of
+    /// the start.
+    adjacent_unknown: bool,
+    detection: PassDetection,
     /// Vehicles per lane.
     count: Vec<usize>,
-    /// Some vehicle of each lane that has one.
+    /// One vehicle of each lane; none in an empty lane.
     member: Vec<Option<usize>>,
-    /// On one lane the leader of j is j + 1 for ever, but for the last.
+    /// There is one lane, where the leader of j is always j + 1, and that of the last vehicle the first.
     in_order: bool,
 }
 
 impl LaneOrder {
-    /// The start of a valid scenario, before any nudge. Beside is not known yet: see `find_beside`.
-    pub fn new(scenario: &Scenario) -> Self {
+    /// The start of a valid scenario, before any nudge.
+    pub(crate) fn new(scenario: &Scenario) -> Self {
         let n = scenario.vehicles;
         let length = scenario.length;
         let count = scenario.vehicles_per_lane();
-        let mut ring = Self {
+        let mut order = Self {
             length,
             start: Vec::with_capacity(n),
             lane: Vec::with_capacity(n),
             ahead: Vec::with_capacity(n),
             behind: Vec::with_capacity(n),
             offset: Vec::with_capacity(n),
-            beside: [AdjacentLeaders::default(), AdjacentLeaders::default()],
-            watch: PassDetection::new(if scenario.lanes > 1 { n } else { 0 }),
+            adjacent: [AdjacentLeaders::default(), AdjacentLeaders::default()],
+            adjacent_unknown: scenario.lanes > 1,
+            detection: PassDetection::new(if scenario.lanes > 1 { n } else { 0 }),
             member: vec![None; scenario.lanes],
             count,
             in_order: scenario.lanes == 1,
@@ -143,20 +151,20 @@ impl LaneOrder {
         let drivers = if scenario.start == Start::Random { scenario.drivers() } else { Vec::new() };
         let mut generator = Generator::new(scenario.seed, Stream::Start);
         for lane in 0..scenario.lanes {
-            let vehicles = ring.count[lane];
+            let vehicles = order.count[lane];
             if vehicles == 0 {
                 continue;
             }
-            let first = ring.start.len();
-            ring.member[lane] = Some(first);
+            let first = order.start.len();
+            order.member[lane] = Some(first);
             for k in 0..vehicles {
-                ring.lane.push(lane as u8);
-                ring.ahead.push((first + if k + 1 == vehicles { 0 } else { k + 1 }) as u32);
-                ring.behind.push((first + if k == 0 { vehicles - 1 } else { k - 1 }) as u32);
+                order.lane.push(lane as u8);
+                order.ahead.push((first + if k + 1 == vehicles { 0 } else { k + 1 }) as u32);
+                order.behind.push((first + if k == 0 { vehicles - 1 } else { k - 1 }) as u32);
             }
             if scenario.start == Start::Random {
                 let min_headways = drivers[first..first + vehicles].iter().map(|d| d.min_headway);
-                ring.place_at_random(min_headways, &mut generator);
+                order.place_at_random(min_headways, &mut generator);
             } else {
                 let headway = length / vehicles as f64;
                 let shift = if scenario.start == Start::Staggered {
@@ -164,18 +172,18 @@ impl LaneOrder {
                 } else {
                     0.0
                 };
-                ring.start.extend((0..vehicles).map(|k| k as f64 * headway + shift));
-                ring.offset.extend((0..vehicles).map(|_| headway));
+                order.start.extend((0..vehicles).map(|k| k as f64 * headway + shift));
+                order.offset.extend((0..vehicles).map(|_| headway));
             }
         }
         if scenario.lanes > 1 {
-            ring.beside = [AdjacentLeaders::of(n), AdjacentLeaders::of(n)];
+            order.adjacent = [AdjacentLeaders::of(n), AdjacentLeaders::of(n)];
         }
         for image in n..padded(n) {
-            ring.offset.push(ring.offset[image - n]);
-            ring.ahead.push(ring.ahead[image - n]);
+            order.offset.push(order.offset[image - n]);
+            order.ahead.push(order.ahead[image - n]);
         }
-        ring
+        order
     }
 
     /// Adds a lane in which every headway is the driver's minimum and a share of the free length, uniformly
@@ -201,22 +209,22 @@ impl LaneOrder {
     }
 
     /// Vehicles per lane, outermost first.
-    pub fn vehicles_per_lane(&self) -> &[usize] {
+    pub(crate) fn vehicles_per_lane(&self) -> &[usize] {
         &self.count
     }
     /// The lane of a vehicle, from 0.
     #[inline]
-    pub fn lane(&self, j: usize) -> usize {
+    pub(crate) fn lane(&self, j: usize) -> usize {
         usize::from(self.lane[j])
     }
     /// The next vehicle ahead in its lane; itself when alone.
     #[inline]
-    pub fn ahead(&self, j: usize) -> usize {
+    pub(crate) fn ahead(&self, j: usize) -> usize {
         self.ahead[j] as usize
     }
     /// The next vehicle behind in its lane; itself when alone.
     #[inline]
-    pub fn behind(&self, j: usize) -> usize {
+    pub(crate) fn behind(&self, j: usize) -> usize {
         self.behind[j] as usize
     }
     /// Offsets of the leaders, m (padded).
@@ -229,47 +237,42 @@ impl LaneOrder {
     pub(crate) fn leaders(&self) -> &[u32] {
         &self.ahead
     }
-    /// Whether the leader of j is j + 1, of the last vehicle the first: on one lane.
+    /// Whether the leader of j is j + 1 and that of the last vehicle the first: on one lane.
     pub(crate) fn is_in_order(&self) -> bool {
         self.in_order
     }
     /// Position at the start, m.
     #[inline]
-    pub fn start(&self, j: usize) -> f64 {
+    pub(crate) fn start(&self, j: usize) -> f64 {
         self.start[j]
     }
-    /// L, m.
+    /// The adjacent leader on that side, as of the last [`Self::follow_motion`] and the lane changes since then.
     #[inline]
-    pub fn length(&self) -> f64 {
-        self.length
-    }
-    /// The next vehicle ahead in the adjacent lane on that side.
-    #[inline]
-    pub(crate) fn beside(&self, j: usize, side: Side) -> AdjacentLeader {
-        let all = &self.beside[side as usize];
+    pub(crate) fn adjacent_leader(&self, j: usize, side: Side) -> AdjacentLeader {
+        let all = &self.adjacent[side as usize];
         AdjacentLeader { vehicle: all.vehicles[j], offset: all.offsets[j] }
     }
 
     #[inline]
-    fn set_beside(&mut self, j: usize, side: Side, found: AdjacentLeader) {
-        let all = &mut self.beside[side as usize];
+    fn set_adjacent_leader(&mut self, j: usize, side: Side, found: AdjacentLeader) {
+        let all = &mut self.adjacent[side as usize];
         (all.vehicles[j], all.offsets[j]) = (found.vehicle, found.offset);
     }
 
-    /// The next vehicles ahead in the adjacent lanes, towards lane 1 and away from it, of all vehicles.
+    /// The adjacent leaders of all vehicles, on the outer side and on the inner side.
     #[inline]
-    pub(crate) fn all_beside(&self) -> [&AdjacentLeaders; 2] {
-        self.beside.each_ref()
+    pub(crate) fn adjacent_leaders(&self) -> [&AdjacentLeaders; 2] {
+        self.adjacent.each_ref()
     }
 
     /// Uses vectors of another width; results stay the same.
     pub(crate) fn set_width(&mut self, width: Width) {
-        self.watch.set_width(width);
+        self.detection.set_width(width);
     }
 
     /// The lane on that side of vehicle `j`, if there is one.
     #[inline]
-    pub fn lane_beside(&self, j: usize, side: Side) -> Option<usize> {
+    pub(crate) fn adjacent_lane(&self, j: usize, side: Side) -> Option<usize> {
         let lane = self.lane(j);
         match side {
             Side::Outer => lane.checked_sub(1),
@@ -301,12 +304,12 @@ impl LaneOrder {
         n
     }
 
-    /// Offset of i seen from j; the distance `offset + (s_i − s_j)` is in (0, L].
+    /// Offset of i relative to j, m; the distance `offset + (s_i − s_j)` is in (0, L].
     fn offset_of(&self, i: usize, j: usize, s: &[f64]) -> f64 {
         (self.start[i] - self.start[j]) - (self.laps(i, j, s) - 1.0) * self.length
     }
 
-    /// Distance from j back to i, in [0, L).
+    /// Distance from j back to i, m, in [0, L).
     pub(crate) fn distance_behind(&self, i: usize, j: usize, s: &[f64]) -> f64 {
         -(((self.start[i] - self.start[j]) - self.laps(i, j, s) * self.length) + (s[i] - s[j]))
     }
@@ -324,16 +327,18 @@ impl LaneOrder {
         self.offset[j] + (s[self.ahead(j)] - s[j])
     }
 
-    /// Finds every vehicle's beside anew, lane by lane; O(N) after a search for one vehicle a lane.
-    pub(crate) fn find_beside(&mut self, s: &[f64]) {
+    /// Finds all adjacent leaders from nothing, lane by lane; O(N) after a search for one vehicle a lane.
+    #[cold]
+    fn find_adjacent_leaders(&mut self, s: &[f64]) {
+        self.adjacent_unknown = false;
         for lane in 0..self.count.len() {
             let Some(first) = self.member[lane] else { continue };
             for side in Side::BOTH {
-                let Some(target) = self.lane_beside(first, side) else { continue };
+                let Some(target) = self.adjacent_lane(first, side) else { continue };
                 let mut j = first;
                 let mut found = self.search(first, target, s);
                 loop {
-                    self.set_beside(j, side, found);
+                    self.set_adjacent_leader(j, side, found);
                     let next = self.ahead(j);
                     if next == first {
                         break;
@@ -347,24 +352,23 @@ impl LaneOrder {
                 }
             }
         }
-        self.watch_all();
+        self.require_checks();
     }
 
-    /// Has every vehicle looked at closely in the next [`Self::follow_motion`]: after a jump in positions, or where
-    /// someone may be faster from now on.
-    pub(crate) fn watch_all(&mut self) {
-        self.watch.look_at_all();
+    /// Has all vehicles checked for passes in the next [`Self::follow_motion`]: after a jump in positions.
+    pub(crate) fn require_checks(&mut self) {
+        self.detection.require_all();
     }
 
-    /// The next vehicle ahead of j in a lane, by looking at all of them.
+    /// The next vehicle ahead of j in a lane, by examining all of them.
     fn search(&self, j: usize, lane: usize, s: &[f64]) -> AdjacentLeader {
         let mut best = AdjacentLeader::empty_lane(j);
         let Some(first) = self.member[lane] else { return best };
         let mut i = first;
         loop {
-            let seen = AdjacentLeader { vehicle: i as u32, offset: self.offset_of(i, j, s) };
-            if seen.distance(j, s) < best.distance(j, s) {
-                best = seen;
+            let candidate = AdjacentLeader { vehicle: i as u32, offset: self.offset_of(i, j, s) };
+            if candidate.distance(j, s) < best.distance(j, s) {
+                best = candidate;
             }
             i = self.ahead(i);
             if i == first {
@@ -373,7 +377,7 @@ impl LaneOrder {
         }
     }
 
-    /// The next vehicle ahead of j, at i or ahead of i, where i is about `about` metres ahead (negative: behind).
+    /// The next vehicle ahead of j, which is i or ahead of i; i is `about` metres ahead up to rounding (negative: behind).
     fn walk_ahead(&self, j: usize, mut i: usize, mut about: f64, s: &[f64]) -> AdjacentLeader {
         let lane = self.lane(i);
         for _ in 0..=2 * self.count[lane] {
@@ -383,46 +387,44 @@ impl LaneOrder {
             about += self.headway(i, s);
             i = self.ahead(i);
         }
-        // Twice round: nudges have put the lane out of order, or someone several laps ahead.
+        // Twice round: nudges have put the lane out of order, or a vehicle several laps ahead.
         self.search(j, lane, s)
     }
 
-    /// Brings beside up to date after the vehicles have moved to the displacements `s`, and tells who was passed by
-    /// whom, in order of the passed.
-    pub(crate) fn follow_motion(&mut self, odometer: TravelBounds, s: &[f64], passes: &mut Vec<Pass>) {
-        let due = self.watch.take_due(s, odometer);
-        for (k, &marks) in due.iter().enumerate() {
-            let mut marks = marks;
-            while marks != 0 {
-                let j = k * CHUNK + marks.trailing_zeros() as usize;
-                marks &= marks - 1;
-                let mut nearest = [f64::INFINITY; 2];
-                for side in Side::BOTH {
-                    let pass = |i: usize| passes.push(Pass { passer: i as u32, passed: j as u32 });
-                    let Some((found, [ahead, behind])) = self.look_beside(j, side, s, pass) else { continue };
-                    self.set_beside(j, side, found);
-                    nearest = [nearest[0].min(ahead), nearest[1].min(behind)];
-                }
-                self.watch.looked_at(j, s[j], odometer, nearest);
-            }
+    /// Brings the adjacent leaders up to date after the vehicles have moved to the displacements `s`, and adds the passes
+    /// since the last call to `passes`, in order of the vehicle that was passed.
+    pub(crate) fn follow_motion(&mut self, travel: TravelBounds, s: &[f64], passes: &mut Vec<Pass>) {
+        if self.adjacent_unknown {
+            self.find_adjacent_leaders(s);
         }
-        self.watch.give_back(due);
+        let mut due = self.detection.find_due(s, travel);
+        while let Some(j) = due.next(&self.detection) {
+            let mut nearest = [f64::INFINITY; 2];
+            for side in Side::BOTH {
+                let pass = |i: usize| passes.push(Pass { passer: i as u32, passed: j as u32 });
+                let Some((found, [ahead, behind])) = self.check_side(j, side, s, pass) else { continue };
+                self.set_adjacent_leader(j, side, found);
+                nearest = [nearest[0].min(ahead), nearest[1].min(behind)];
+            }
+            self.detection.checked(j, s[j], travel, nearest);
+        }
     }
 
-    /// The next vehicle ahead in the adjacent lane at the displacements `s`, and how far the nearest vehicles there are,
-    /// ahead and behind, m. Starts from what was known last, and tells who has come past j since then.
-    fn look_beside(
+    /// The adjacent leader of j on one side at the displacements `s`, and how far away the nearest vehicles there are, ahead
+    /// and behind, m; none in an empty lane or where there is no lane. Starts from the adjacent leader known before, and
+    /// calls `pass` with every vehicle that has passed j since then.
+    fn check_side(
         &self,
         j: usize,
         side: Side,
         s: &[f64],
         mut pass: impl FnMut(usize),
     ) -> Option<(AdjacentLeader, [f64; 2])> {
-        let mut found = self.beside(j, side);
+        let mut found = self.adjacent_leader(j, side);
         let mut i = found.vehicle()?;
         let mut distance = found.distance(j, s);
         if distance <= 0.0 {
-            // j has passed i, and perhaps more.
+            // j has passed i, and perhaps more vehicles.
             found = self.walk_ahead(j, self.ahead(i), distance + self.headway(i, s), s);
             i = found.vehicle as usize;
             distance = found.distance(j, s);
@@ -431,36 +433,39 @@ impl LaneOrder {
         loop {
             let follower = self.behind(i);
             let about = distance - self.headway(follower, s);
-            if about <= -NEAR {
+            if about <= -ROUNDING_MARGIN {
                 return Some((found, [distance, -about]));
             }
-            // The one behind i was at most alongside; now it is looked at exactly.
-            let seen = AdjacentLeader { vehicle: follower as u32, offset: self.offset_of(follower, j, s) };
-            let more_laps = ((about - seen.distance(j, s)) / self.length).round();
+            // The vehicle behind i was at most alongside j before; where it is now is computed exactly.
+            let candidate =
+                AdjacentLeader { vehicle: follower as u32, offset: self.offset_of(follower, j, s) };
+            let more_laps = ((about - candidate.distance(j, s)) / self.length).round();
             if more_laps < 0.0 {
                 return Some((found, [0.0; 2]));
             }
-            // Once round, everyone there has come past.
+            // After a whole round all vehicles of that lane have passed, and each is counted once.
             if walked < self.count[self.lane(follower)] {
                 pass(follower);
             }
             walked += 1;
-            (found, i) = (seen, follower);
-            distance = seen.distance(j, s) + more_laps * self.length;
+            (found, i) = (candidate, follower);
+            distance = candidate.distance(j, s) + more_laps * self.length;
         }
     }
 
-    /// The next vehicle ahead in the adjacent lane on that side, wherever the vehicles have moved since the last
+    /// The adjacent leader on that side at the displacements `s`, wherever the vehicles have moved since the last
     /// [`Self::follow_motion`]; none in an empty lane or where there is no lane.
     pub(crate) fn adjacent(&self, j: usize, side: Side, s: &[f64]) -> Option<usize> {
-        if self.in_order {
-            return None;
+        let lane = self.adjacent_lane(j, side)?;
+        if self.adjacent_unknown {
+            return self.search(j, lane, s).vehicle();
         }
-        self.look_beside(j, side, s, |_| {}).map(|(found, _)| found.vehicle as usize)
+        self.check_side(j, side, s, |_| {}).map(|(found, _)| found.vehicle as usize)
     }
 
-    /// Moves `m` to the lane on that side; the vehicles of the lanes around learn of it. `crossed` gets the vehicles
-    /// of the far lane, new beside m, that m went past on the way from the displacements `before` to `s`.
+    /// Moves `m` to the lane on that side, and updates the adjacent leaders of the vehicles around. With the change, the
+    /// lane beyond becomes adjacent: `crossed` gets the vehicles there that m has passed on the way from the displacements
+    /// `before` to `s`.
     pub(crate) fn change_lane(
         &mut self,
         m: usize,
@@ -469,32 +474,33 @@ impl LaneOrder {
         s: &[f64],
         crossed: &mut Vec<Pass>,
     ) {
-        let to = self.lane_beside(m, side).expect("an attempt aims at a lane that exists");
-        let front = self.beside(m, side).vehicle();
-        self.announce_leaving(m, s);
+        let to = self.adjacent_lane(m, side).expect("an attempt aims at a lane that exists");
+        let front = self.adjacent_leader(m, side).vehicle();
+        self.update_for_departure(m, s);
         let leader = self.leave(m, s);
         self.enter(m, to, front, s);
         let left = match leader {
             Some(i) => AdjacentLeader { vehicle: i as u32, offset: self.offset_of(i, m, s) },
             None => AdjacentLeader::empty_lane(m),
         };
-        self.set_beside(m, side.opposite(), left);
-        self.set_beside(m, side, self.find_in_far_lane(m, side, s));
-        self.watch.look_at(m);
-        for listeners in Side::BOTH {
-            self.announce_arrival(m, listeners, s);
+        self.set_adjacent_leader(m, side.opposite(), left);
+        self.set_adjacent_leader(m, side, self.find_in_lane_beyond(m, side, s));
+        self.detection.require(m);
+        for side in Side::BOTH {
+            self.update_for_arrival(m, side, s);
         }
         self.find_crossed(m, side, before, s, crossed);
     }
 
-    /// Who has m beside gets the vehicle ahead of m: those just behind m in the adjacent lanes.
-    fn announce_leaving(&mut self, m: usize, s: &[f64]) {
+    /// Before m leaves its lane: the vehicles that have m as adjacent leader get the vehicle ahead of m instead. They are
+    /// the ones just behind m in the adjacent lanes.
+    fn update_for_departure(&mut self, m: usize, s: &[f64]) {
         let leader = self.ahead(m);
         for side in Side::BOTH {
             let toward = side.opposite();
-            let mut walk = self.back_from_beside(m, side);
+            let mut walk = self.back_from_adjacent(m, side);
             while let Some(j) = walk.step(&self.behind) {
-                if self.beside(j, toward).vehicle() != Some(m) {
+                if self.adjacent_leader(j, toward).vehicle() != Some(m) {
                     if walk.may_be_alongside() {
                         continue;
                     }
@@ -505,41 +511,42 @@ impl LaneOrder {
                 } else {
                     AdjacentLeader { vehicle: leader as u32, offset: self.offset_of(leader, j, s) }
                 };
-                self.set_beside(j, toward, found);
+                self.set_adjacent_leader(j, toward, found);
             }
         }
     }
 
-    /// Who is behind m in the lane on that side gets m beside, as far back as m is the next ahead; who is ahead of m
-    /// and behind its leader has m near from now on.
-    fn announce_arrival(&mut self, m: usize, side: Side, s: &[f64]) {
+    /// After m has arrived in its lane: the vehicles behind m in the lane on that side get m as adjacent leader, as far back
+    /// as m is the next one ahead. The vehicles between m and its leader now have m near behind them; they must be checked
+    /// for passes.
+    fn update_for_arrival(&mut self, m: usize, side: Side, s: &[f64]) {
         let toward = side.opposite();
-        let mut walk = self.back_from_beside(m, side);
+        let mut walk = self.back_from_adjacent(m, side);
         while let Some(j) = walk.step(&self.behind) {
             let arrived = AdjacentLeader { vehicle: m as u32, offset: self.offset_of(m, j, s) };
-            if self.beside(j, toward).distance(j, s) <= arrived.distance(j, s) {
+            if self.adjacent_leader(j, toward).distance(j, s) <= arrived.distance(j, s) {
                 if walk.may_be_alongside() {
-                    self.watch.look_at(j);
+                    self.detection.require(j);
                     continue;
                 }
                 break;
             }
-            self.set_beside(j, toward, arrived);
-            self.watch.look_at(j);
+            self.set_adjacent_leader(j, toward, arrived);
+            self.detection.require(j);
         }
-        let Some(mut j) = self.beside(m, side).vehicle() else { return };
+        let Some(mut j) = self.adjacent_leader(m, side).vehicle() else { return };
         for _ in 0..self.count[self.lane(j)] {
-            if self.beside(j, toward).vehicle() != Some(self.ahead(m)) {
+            if self.adjacent_leader(j, toward).vehicle() != Some(self.ahead(m)) {
                 break;
             }
-            self.watch.look_at(j);
+            self.detection.require(j);
             j = self.ahead(j);
         }
     }
 
-    /// The vehicles of the lane on that side that m has gone past since `before`: just behind m, if any.
+    /// Adds the vehicles of the lane on that side that m has passed since the displacements `before`. They are just behind m.
     fn find_crossed(&self, m: usize, side: Side, before: &[f64], s: &[f64], crossed: &mut Vec<Pass>) {
-        let mut walk = self.back_from_beside(m, side);
+        let mut walk = self.back_from_adjacent(m, side);
         while let Some(j) = walk.step(&self.behind) {
             if self.laps(m, j, s) <= self.laps(m, j, before) {
                 if walk.may_be_alongside() {
@@ -551,9 +558,10 @@ impl LaneOrder {
         }
     }
 
-    /// The vehicles of the lane on that side of m, once round, backwards from the one that is at most alongside.
-    fn back_from_beside(&self, m: usize, side: Side) -> BackWalk {
-        match self.beside(m, side).vehicle() {
+    /// Goes through the vehicles of the lane on that side of m, once round, backwards from the first that is at most
+    /// alongside m.
+    fn back_from_adjacent(&self, m: usize, side: Side) -> BackWalk {
+        match self.adjacent_leader(m, side).vehicle() {
             Some(i) => BackWalk::new(self.behind(i), self.count[self.lane(i)]),
             None => BackWalk::new(0, 0),
         }
@@ -571,7 +579,7 @@ impl LaneOrder {
         }
     }
 
-    /// Takes m out of its lane; its leader there, if it was not alone.
+    /// Takes m out of its lane; returns its leader there, if it was not alone.
     fn leave(&mut self, m: usize, s: &[f64]) -> Option<usize> {
         let (from, leader, follower) = (self.lane(m), self.ahead(m), self.behind(m));
         self.count[from] -= 1;
@@ -600,11 +608,11 @@ impl LaneOrder {
         self.set_offset(m, self.offset_of(front, m, s));
     }
 
-    /// The next vehicle ahead of m in the lane on that side, starting from what the vehicle behind m has beside it.
-    fn find_in_far_lane(&self, m: usize, side: Side, s: &[f64]) -> AdjacentLeader {
-        let Some(lane) = self.lane_beside(m, side) else { return AdjacentLeader::no_lane(m) };
+    /// The next vehicle ahead of m in the lane on that side, starting from the adjacent leader of the vehicle behind m.
+    fn find_in_lane_beyond(&self, m: usize, side: Side, s: &[f64]) -> AdjacentLeader {
+        let Some(lane) = self.adjacent_lane(m, side) else { return AdjacentLeader::no_lane(m) };
         let rear = self.behind(m);
-        let hint = self.beside(rear, side);
+        let hint = self.adjacent_leader(rear, side);
         match hint.vehicle() {
             Some(i) if rear != m => self.walk_ahead(m, i, hint.distance(rear, s) - self.headway(rear, s), s),
             _ => self.search(m, lane, s),
@@ -612,8 +620,8 @@ impl LaneOrder {
     }
 }
 
-/// Goes back in a lane; see [`LaneOrder::back_from_beside`]. It holds no borrow: the next vehicle is asked for by
-/// [`BackWalk::step`].
+/// Goes backwards through a lane; see [`LaneOrder::back_from_adjacent`]. It holds no borrow, so that the order can be
+/// changed on the way: [`BackWalk::step`] is given the links each time.
 struct BackWalk {
     next: usize,
     count: usize,
@@ -625,7 +633,8 @@ impl BackWalk {
         Self { next, count, left: count }
     }
 
-    /// Whether this is the first one: exactly alongside, it would be a lap behind, and say nothing of those behind it.
+    /// Whether the vehicle given last is the first of the walk. If that is exactly alongside, it counts as a lap ahead, and
+    /// its answer says nothing about the vehicles behind it.
     fn may_be_alongside(&self) -> bool {
         self.left + 1 == self.count
     }

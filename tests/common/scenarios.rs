@@ -1,5 +1,5 @@
-//! Random scenarios: crowded and sparse rings, tiny and long ones, few vehicles over many lanes, mixed drivers,
-//! delays of any length, steps up to half a second, and actions of every kind at any time.
+//! Random scenarios: crowded and sparse rings, tiny and long ones, few vehicles over many lanes, heterogeneous drivers,
+//! delays of any length, steps up to half a second, and all sorts of actions at any time.
 
 use proptest::prelude::*;
 use proptest::sample::select;

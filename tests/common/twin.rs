@@ -1,17 +1,17 @@
-//! The twin: a second implementation of lane changing, as slow and as close to the sentences of the model as
-//! possible. It keeps every position since t = 0, searches all vehicles for every question, and shares
-//! with the fast code the sampler, the start, and nothing else.
+//! The twin: a second implementation of lane changing, slow and as close to the sentences of the model as possible. It
+//! keeps every position since t = 0, searches all vehicles whenever it needs one, and shares with the fast code the
+//! sampler and the start only.
 //!
-//! What the vehicles drive in a step is checked against the law of speed and then taken over from the fast code to
-//! the last bit; so the comparison does not depend on how an exponential is rounded.
+//! The distances that vehicles move in a step are checked against the law of speed and then taken over from the fast
+//! code to the last bit; so the comparison does not depend on how an exponential is rounded.
 
 use ringroad::numerics::random::{Generator, Stream};
 use ringroad::scenario::action::{Action, Effect, VehicleSelector};
 use ringroad::scenario::driver::Driver;
 use ringroad::scenario::{Scenario, Start};
+use ringroad::simulation::Side;
 use ringroad::simulation::attempt_sampler::Sampler;
 use ringroad::simulation::frustration::EQUAL;
-use ringroad::simulation::lane_order::Side;
 use ringroad::simulation::{Event, Simulation};
 
 /// A vehicle ahead: it is `constant + s_it − s_own` metres away.
@@ -127,7 +127,7 @@ impl<S: Sampler> Twin<S> {
         &self.s[self.step]
     }
 
-    // ---- Who is where --------------------------------------------------------------------------------------------
+    // ---- Positions and leaders --------------------------------------------------------------------------------------------
 
     /// ⌈g/L⌉ with g = x_i − x_j: the least n with (x⁰_i − x⁰_j) − n·L + (s_i − s_j) ≤ 0.
     fn laps(&self, i: usize, j: usize, s: &[f64]) -> f64 {
@@ -187,7 +187,7 @@ impl<S: Sampler> Twin<S> {
         self.distance(j, self.leader[j])
     }
 
-    /// A driver has gone through the vehicle ahead.
+    /// Whether a vehicle has moved through the one ahead.
     pub fn order_is_lost(&self) -> bool {
         (0..self.vehicles()).any(|j| self.headway(j) <= 0.0)
     }
@@ -233,12 +233,12 @@ impl<S: Sampler> Twin<S> {
 
     fn consider(&mut self, j: usize) {
         let own = self.perceived_headway(j);
-        let seen: Vec<(usize, f64)> = self
+        let perceived: Vec<(usize, f64)> = self
             .adjacent_lanes(j)
             .into_iter()
             .map(|lane| (lane, self.next_ahead(j, lane).map_or(f64::INFINITY, |a| self.perceived(j, a))))
             .collect();
-        let adjacent = seen.iter().map(|&(_, h)| h).fold(f64::NEG_INFINITY, f64::max);
+        let adjacent = perceived.iter().map(|&(_, h)| h).fold(f64::NEG_INFINITY, f64::max);
         let change = self.drivers[j].frustration_rate * self.scenario.time_step;
         let mut phi = self.frustration[j];
         if own + EQUAL < adjacent {
@@ -248,8 +248,8 @@ impl<S: Sampler> Twin<S> {
         }
         if self.step > 0 {
             for i in 0..self.vehicles() {
-                let beside = self.lane[i].abs_diff(self.lane[j]) == 1;
-                if beside && self.laps(i, j, self.now()) > self.laps(i, j, &self.s[self.step - 1]) {
+                let adjacent = self.lane[i].abs_diff(self.lane[j]) == 1;
+                if adjacent && self.laps(i, j, self.now()) > self.laps(i, j, &self.s[self.step - 1]) {
                     phi += self.drivers[j].pass_frustration; // rule 3
                     self.events.push(Event::Pass { passer: i, passed: j });
                 }
@@ -257,7 +257,8 @@ impl<S: Sampler> Twin<S> {
         }
         self.frustration[j] = phi;
         if self.sampler.attempts(j, phi) {
-            let best: Vec<usize> = seen.iter().filter(|&&(_, h)| h == adjacent).map(|&(l, _)| l).collect();
+            let best: Vec<usize> =
+                perceived.iter().filter(|&&(_, h)| h == adjacent).map(|&(l, _)| l).collect();
             let tie = best.len() == 2;
             self.coins += usize::from(tie);
             // Heads: the outer one.
