@@ -173,7 +173,7 @@ fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
         title: FIGURE.title.into(),
         description: format!(
             "Left: the difference between the lanes falls from 50 to a few vehicles, within seconds at the paper's r \
-             and p, more slowly at a tenth of both; if every vehicle chose its lane by chance, the mean would be {:.1}. Right: the flow through both \
+             and p, more slowly at a tenth of both; chance alone would leave {:.1}. Right: the flow through both \
              lanes rises as the difference falls, to about one vehicle a second.",
             random_imbalance(N)
         ),

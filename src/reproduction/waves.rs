@@ -236,9 +236,9 @@ fn assemble(size: Size, results: &[TaskResult]) -> Outcome {
         id: ID.into(),
         title: FIGURE.title.into(),
         description: "Nine panels. Above, speeds of five vehicles: at reaction times of 0 and 0.5 s the oscillation \
-                      after the displacement fades, at 0.75 s it grows until two vehicles collide. Middle, flow over \
+                      that the nudge makes dies away, at 0.75 s it grows until two vehicles collide. Middle, flow over \
                       time and place: only at 0.75 s does it change by whole vehicles. Below, speed over time and place: \
-                      stripes of slow traffic travel upstream in all three; in the first two they fade, in the third their number grows."
+                      slow stripes run upstream in all three and fade in the first two; in the third they multiply."
             .into(),
         columns: 3,
         panels: rows.into_iter().flatten().collect(),
