@@ -3,6 +3,8 @@
 //!
 //! Everything here is bounded in memory, however long the run. Tables for files come from the probes.
 
+pub mod traffic;
+
 use crate::error::{Error, quoted};
 use crate::format::table::Table;
 use crate::measurement::modal_growth::{Linear, ModalGrowth};
@@ -258,14 +260,20 @@ impl Live {
         self.modal_from = step + scenario.steps(20.0 * longest);
     }
 
+    /// Number of modes whose growth is measured, from mode 1 on: twice the fastest mode, but at least 10, at most 40,
+    /// and at most as many as the lane has.
+    pub fn modes_followed(&self) -> usize {
+        let StabilitySummary { lane, mode, .. } = self.verdict;
+        let most = self.simulation.vehicles_per_lane()[lane - 1] / 2;
+        (2 * mode.unwrap_or(1)).clamp(10, 40).min(most)
+    }
+
     /// Looks at all modes, beyond the fastest by as far again.
     fn record_modes(&mut self) {
         if self.stale {
             return;
         }
-        let StabilitySummary { lane, mode, .. } = self.verdict;
-        let most = self.simulation.vehicles_per_lane()[lane - 1] / 2;
-        let modes = (2 * mode.unwrap_or(1)).clamp(10, 40).min(most);
+        let (lane, modes) = (self.verdict.lane, self.modes_followed());
         let (every, from) = (self.every, self.modal_from);
         let modal = self.modal.get_or_insert_with(|| ModalGrowth::new(every, modes, lane - 1, from, LINEAR));
         if modal.rows() < MODAL_ROWS {
