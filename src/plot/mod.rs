@@ -347,6 +347,7 @@ impl Plot {
 
 /// The rectangle between the axes of a panel, in units of the picture, and what can be read there.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Field<'a> {
     /// The panel's title.
     pub title: &'a str,
@@ -368,6 +369,7 @@ pub struct Field<'a> {
 
 /// Values that can be read off a picture, with seven digits, and where they are drawn, in units of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Mark<'a> {
     /// A curve, or points.
@@ -379,8 +381,10 @@ pub enum Mark<'a> {
         /// Ordinates.
         y: Vec<f32>,
         /// Ends of the band about the curve, or of the error bars; empty where there are none.
+        #[cfg_attr(test, ts(type = "Array<number | null>"))]
         low: Vec<f32>,
         /// Upper ends.
+        #[cfg_attr(test, ts(type = "Array<number | null>"))]
         high: Vec<f32>,
         /// Where the points lie: from the left.
         right: Vec<f32>,
@@ -398,6 +402,7 @@ pub enum Mark<'a> {
         /// Centres of the first and the last cell along y.
         y: (f32, f32),
         /// Values, row by row, from the lowest y; `null` where there is none.
+        #[cfg_attr(test, ts(type = "Array<number | null>"))]
         values: Vec<f32>,
         /// Left and right edge in the picture.
         across: (f64, f64),

@@ -149,6 +149,7 @@ fn growth(ring: &DriverClasses, time: Time) -> Growth {
 
 /// A characteristic root in continuous time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct ModeRoot {
     /// q.
     pub mode: usize,
@@ -233,6 +234,7 @@ fn roots_of_modes(ring: &DriverClasses, modes: impl Iterator<Item = usize>, coun
 
 /// The roots of a lane as a picture shows them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Roots {
     /// Vehicles in the lane.
     pub vehicles: usize,

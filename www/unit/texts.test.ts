@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest'
 import { readHash } from '../src/app/url'
 import { exactly, fixed, span } from '../src/text/format'
-import type { Verdict } from '../src/core/protocol'
+import type { StabilitySummary } from '../src/core/protocol'
 import { en } from '../src/text/en'
 import { inWords } from '../src/views/actions'
 import { shown } from '../src/views/controls'
@@ -42,7 +42,7 @@ test('the page takes its own entries out of a link', () => {
   expect(readHash('#view=elsewhere').scenario).toBe('view=elsewhere')
 })
 
-const verdict: Verdict = {
+const verdict: StabilitySummary = {
   stable: false,
   alike: true,
   reaction_time: 0.75,

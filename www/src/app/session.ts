@@ -1,17 +1,11 @@
 // The session: what is open, whether it plays, how fast. Views listen to it and ask it to do things.
 import { Cancelled, type Client } from '../core/client'
 import { Pace } from './playback'
-import type { Answer, Ask, Frame, Legends, Name, Opened, Snapshot, Start, View } from '../core/protocol'
+import type { Answer, Ask, ColourBars, Frame, Name, Opened, Rows, Snapshot, Start, View } from '../core/protocol'
 import { text } from '../text'
 
 /** Columns since the start of the run, at most as many as the map shows. */
-export interface Series {
-  readonly time: number[]
-  readonly mean: number[]
-  readonly flow: (number | null)[]
-  readonly imbalance: number[]
-  readonly speeds: number[][]
-}
+export type Series = Readonly<Rows>
 
 interface Events {
   /** Something other than the traffic changed. */
@@ -21,7 +15,7 @@ interface Events {
   opened: string
   /** Play, pause, playback, falling behind. */
   playing: boolean
-  legends: Legends
+  legends: ColourBars
   watch: number
   /** A sentence for the place where people look for what went wrong; empty to clear. */
   trouble: readonly string[]
@@ -38,7 +32,7 @@ export const PLAYBACKS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100] as const
 export class Session {
   snapshot!: Snapshot
   frame!: Frame
-  legends!: Legends
+  legends!: ColourBars
   view: View
   playing = false
   playback = 5
@@ -61,7 +55,7 @@ export class Session {
     readonly start: Start,
     dark: boolean,
   ) {
-    this.view = { ring: 'difference', map: 'difference', dark, lane: 0, riding: false }
+    this.view = { ring: 'difference', map: 'difference', dark, lane: 0, coMoving: false }
   }
 
   on<K extends keyof Events>(event: K, listener: Listener<K>): void {
@@ -213,8 +207,7 @@ export class Session {
   }
   /** The time that map and charts show, s: the whole run until the map is full, then its latest part. */
   window(): [number, number] {
-    const { interval } = this.snapshot
-    const most = this.start.map.columns * interval
+    const { interval, map_window: most } = this.snapshot
     const now = (this.series.time.at(-1) ?? 0) + interval
     return now > most ? [now - most, now] : [0, Math.max(now, SHORTEST_WINDOW)]
   }
@@ -267,20 +260,13 @@ function empty(watched: number): Series {
   return { time: [], mean: [], flow: [], imbalance: [], speeds: Array.from({ length: watched }, () => []) }
 }
 
-/** Appends the core's rows and drops what has left the window. */
-export function append(series: Series, rows: Float64Array, most: number): void {
-  const width = 4 + series.speeds.length
-  for (let at = 0; at + width <= rows.length; at += width) {
-    series.time.push(rows[at]!)
-    series.mean.push(rows[at + 1]!)
-    series.flow.push(Number.isNaN(rows[at + 2]) ? null : rows[at + 2]!)
-    series.imbalance.push(rows[at + 3]!)
-    series.speeds.forEach((speeds, k) => speeds.push(rows[at + 4 + k]!))
-  }
-  const excess = series.time.length - most
-  if (excess > 0) {
-    for (const column of [series.time, series.mean, series.flow, series.imbalance, ...series.speeds]) {
-      column.splice(0, excess)
-    }
-  }
+const columns = (rows: Series) => [rows.time, rows.mean, rows.flow, rows.imbalance, ...rows.speeds]
+
+/** Appends what the core has recorded and drops what is older than the map shows. */
+export function append(series: Series, rows: Series, most: number): void {
+  const added = columns(rows)
+  columns(series).forEach((column, k) => {
+    column.push(...(added[k] as number[]))
+    column.splice(0, column.length - most)
+  })
 }

@@ -3,7 +3,7 @@
 import { card, el } from '../ui/dom'
 import { fixed } from '../text/format'
 import type { Session } from '../app/session'
-import type { Parameter, Verdict } from '../core/protocol'
+import type { Parameter, StabilitySummary } from '../core/protocol'
 import { text } from '../text'
 import { numberField } from '../ui/number_field'
 import { BRAKE } from './ring'
@@ -29,7 +29,7 @@ export function shown(parameter: Parameter, value: number): string {
   return Number(short) === value ? String(Number(short)) : String(value)
 }
 
-function control(session: Session, parameter: Parameter, preview: (v: Verdict | null) => void): HTMLElement {
+function control(session: Session, parameter: Parameter, preview: (v: StabilitySummary | null) => void): HTMLElement {
   const id = `p-${parameter.name}`
   const name = t.names[parameter.name] ?? parameter.name
   const unitName = t.units[parameter.unit] ?? parameter.unit
@@ -163,7 +163,7 @@ function startControl(session: Session): HTMLElement {
   return el('div', { class: 'control' }, el('label', { for: 'p-start' }, t.start), select)
 }
 
-export function controlsView(session: Session, preview: (v: Verdict | null) => void): HTMLElement {
+export function controlsView(session: Session, preview: (v: StabilitySummary | null) => void): HTMLElement {
   const { parameters } = session.start
   const make = (p: Parameter) => control(session, p, preview)
   const first = FIRST.map(name => parameters.find(p => p.name === name)).filter(p => p !== undefined)

@@ -4,8 +4,6 @@ import type { Session } from '../app/session'
 import { text } from '../text'
 
 const EVERY = 8000
-/** Slower than this a car stands, m/s. */
-const STANDS = 0.1
 
 export function liveView(session: Session): HTMLElement {
   const element = el('div', { id: 'live', class: 'hidden', role: 'status', 'aria-live': 'polite' })
@@ -14,15 +12,8 @@ export function liveView(session: Session): HTMLElement {
     const now = performance.now()
     if (!session.playing || now - last < EVERY) return
     last = now
-    const { speeds } = frame
-    let [sum, low, high, standing] = [0, Number.POSITIVE_INFINITY, 0, 0]
-    for (const v of speeds) {
-      sum += v
-      low = Math.min(low, v)
-      high = Math.max(high, v)
-      if (v < STANDS) standing++
-    }
-    element.textContent = `${text.live.state(frame.time, sum / speeds.length, low, high)} ${text.live.jams(standing)}`
+    const { mean_speed, lowest_speed, highest_speed, standing } = frame.traffic
+    element.textContent = `${text.live.state(frame.time, mean_speed, lowest_speed, highest_speed)} ${text.live.jams(standing)}`
   })
   session.on('playing', playing => {
     last = playing ? performance.now() : last

@@ -28,7 +28,7 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     'aria-label': t.lane,
     onchange: () => void session.look({ lane: Number(lane.value) }),
   })
-  const ride = el('input', { type: 'checkbox', id: 'ride', onchange: () => void session.look({ riding: ride.checked }) })
+  const ride = el('input', { type: 'checkbox', id: 'ride', onchange: () => void session.look({ coMoving: ride.checked }) })
   const foot = el(
     'div',
     { class: 'map-foot' },
@@ -65,7 +65,7 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     const numbers = places.map(place => fixed(place, 0))
     field.style.setProperty('--digits', String(Math.max(3, ...numbers.map(number => number.length))))
     y.replaceChildren(
-      el('span', { class: 'name' }, session.view.riding ? t.riding : t.position),
+      el('span', { class: 'name' }, session.view.coMoving ? t.riding : t.position),
       ...places.map((place, k) => {
         const up = place / scenario.length
         return el('span', { style: `top:${Math.min(97, Math.max(3, 100 - 100 * up))}%` }, numbers[k])
@@ -88,16 +88,16 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     const box = picture.getBoundingClientRect()
     const column = Math.floor(((event.clientX - box.left) / box.width) * visible)
     const bin = Math.floor((1 - (event.clientY - box.top) / box.height) * bins)
-    const reading = await session.client.ask('probe', { column, bin })
+    const reading = await session.client.ask('reading', { column, bin })
     asking = false
-    if (reading && Number.isFinite(reading.speed)) {
-      note.textContent = t.reading(reading.time, reading.position, reading.speed, reading.speed - reading.equilibrium)
+    if (reading && reading.speed !== null && reading.difference !== null) {
+      note.textContent = t.reading(reading.time, reading.position, reading.speed, reading.difference)
     }
   })
   picture.addEventListener('pointerleave', describe)
   session.on('legends', legends => {
     quantity.value = session.view.map
-    ride.checked = session.view.riding
+    ride.checked = session.view.coMoving
     legend.show(legends.map, session.view.map)
     describe()
     if (session.snapshot) again()

@@ -99,9 +99,9 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
       c.rotate(a)
       c.translate(r, 0)
       // Along the road is +y now.
-      const long = Math.max(3, frame.sizes[2 * j]! * metre)
+      const long = Math.max(3, frame.lengths[j]! * metre)
       const thick = Math.min(width * 0.6, Math.max(0.9 * long, 6.5))
-      const whisker = frame.sizes[2 * j + 1]! * metre
+      const whisker = frame.minHeadways[j]! * metre
       c.strokeStyle = colours.line
       c.beginPath()
       c.moveTo(0, long / 2)
@@ -209,14 +209,11 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
     note.textContent = t.size(scenario.vehicles, fixed(scenario.length / 1000, 2), scenario.lanes)
   })
   session.on('watch', redraw)
-  session.on('frame', frame => {
-    const mean = frame.speeds.reduce((sum, v) => sum + v, 0) / frame.speeds.length
-    const { scenario } = session.snapshot
-    const rho = scenario.vehicles / scenario.length
-    speed.textContent = t.speed(mean)
-    kmh.textContent = t.kmh(mean)
-    flow.textContent = t.flow(mean * rho)
-    density.textContent = t.density(rho)
+  session.on('frame', ({ traffic }) => {
+    speed.textContent = t.speed(traffic.mean_speed)
+    kmh.textContent = t.kmh(traffic.mean_speed)
+    flow.textContent = t.flow(traffic.flow)
+    density.textContent = t.density(traffic.density)
     redraw()
   })
   return section

@@ -2,7 +2,7 @@
 // where that lane stands can be dragged, or moved with the arrow keys; letting go sets N and Δ as the sliders do.
 import { drawing, el, style } from '../../ui/dom'
 import type { Session } from '../../app/session'
-import type { Curves, Plane, Verdict } from '../../core/protocol'
+import type { Curves, StabilityDiagram, StabilitySummary } from '../../core/protocol'
 import { text } from '../../text'
 import { type Frame, axes, frame, roundSteps, spot, ticks, word } from '../../charts/axes'
 import { keys } from '../../charts/line_chart'
@@ -20,7 +20,7 @@ interface Point {
   readonly delay: number
 }
 
-export function planeView(session: Session, preview: (v: Verdict | null) => void) {
+export function planeView(session: Session, preview: (v: StabilitySummary | null) => void) {
   const parameter = (name: string) => session.start.parameters.find(p => p.name === name)!
   const step = parameter('reaction_time').slider?.step ?? 0.01
   const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9))
@@ -52,7 +52,7 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     lines,
     el('div', { class: 'choices-row' }, ground, el('label', { title: t.everyHint }, every, t.every)),
   )
-  let plane: Plane | null = null
+  let plane: StabilityDiagram | null = null
   let curves: Curves | null = null
   /** The point when it was taken up, and where it is held, before it is let go. */
   let origin: Point | null = null
@@ -264,7 +264,7 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     mark()
     if (every.checked && of !== modesOf) {
       modesOf = of
-      modes = await session.client.ask('planeModes', { steps: inSteps() })
+      modes = await session.client.ask('diagramModes', { steps: inSteps() })
       redraw()
     }
   }
@@ -306,7 +306,7 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
     redraw()
     place()
   }
-  const speak = (v: Verdict) => {
+  const speak = (v: StabilitySummary) => {
     state = v.stable === null ? '' : v.stable ? t.stable : t.unstable
   }
   const show = () => {
@@ -427,7 +427,7 @@ export function planeView(session: Session, preview: (v: Verdict | null) => void
 
   return {
     element,
-    of(next: Plane) {
+    of(next: StabilityDiagram) {
       plane = next
       curves = next.curves
       show()

@@ -1,7 +1,7 @@
 // The stability tab: where waves grow, why, and whether the run agrees.
 import { el } from '../../ui/dom'
 import type { Session } from '../../app/session'
-import type { ModesGrowth, Roots, Verdict } from '../../core/protocol'
+import type { ModalGrowth, Roots, StabilitySummary } from '../../core/protocol'
 import { modesView } from './modes'
 import { planeView } from './diagram'
 import { rootsView } from './roots'
@@ -10,7 +10,7 @@ import './stability.css'
 /** Between two looks at the measured growth, ms. */
 const MEASURE = 400
 
-export function stabilityView(session: Session, preview: (v: Verdict | null) => void): HTMLElement {
+export function stabilityView(session: Session, preview: (v: StabilitySummary | null) => void): HTMLElement {
   const plane = planeView(session, preview)
   const roots = rootsView()
   const modes = modesView()
@@ -20,7 +20,7 @@ export function stabilityView(session: Session, preview: (v: Verdict | null) => 
   let curvesOf = ''
   let rootsOf = ''
   let theory: Roots | null = null
-  let measured: ModesGrowth | null = null
+  let measured: ModalGrowth | null = null
   const showModes = () => {
     if (theory && measured && session.frame) modes.show(theory, measured, session.snapshot.verdict.mode, session.frame.time, session.snapshot.scenario.lanes)
   }
@@ -33,7 +33,7 @@ export function stabilityView(session: Session, preview: (v: Verdict | null) => 
     const curves = JSON.stringify([road, exceptions, verdict.lane, verdict.vehicles, verdict.alike])
     if (curves !== curvesOf) {
       curvesOf = curves
-      plane.of(await session.client.ask('plane', {}))
+      plane.of(await session.client.ask('diagram', {}))
     }
     const lane = JSON.stringify([road, exceptions, verdict, changes])
     if (lane !== rootsOf) {
