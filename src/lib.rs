@@ -117,7 +117,7 @@ pub mod reproduction;
 pub mod scenario;
 pub mod simulation;
 pub mod stability;
-#[cfg(target_arch = "wasm32")]
+#[cfg(any(target_arch = "wasm32", test))]
 pub mod web;
 
 pub use error::Error;

@@ -6,10 +6,9 @@
 //! file: with the fewest digits that read back to the same bits.
 
 use crate::error::Error;
+use crate::format::json_writer::Writer;
 use serde::{Serialize, Serializer};
-use serde_json::ser::Formatter;
 use std::fmt;
-use std::io;
 use std::str::FromStr;
 
 /// A value.
@@ -163,21 +162,12 @@ impl Serialize for Json {
     }
 }
 
-/// Writes numbers as the standard library does.
-struct Plain;
-
-impl Formatter for Plain {
-    fn write_f64<W: ?Sized + io::Write>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
-        writer.write_all(format!("{value:?}").as_bytes())
-    }
-}
-
 /// One line of JSON.
 pub fn text(value: &impl Serialize) -> String {
-    let mut out = Vec::new();
+    let mut writer = Writer::default();
     // Plain data and memory: neither fails.
-    let _ = value.serialize(&mut serde_json::Serializer::with_formatter(&mut out, Plain));
-    String::from_utf8(out).unwrap_or_default()
+    let _ = value.serialize(&mut writer);
+    writer.out
 }
 
 impl fmt::Display for Json {

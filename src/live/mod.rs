@@ -4,6 +4,7 @@
 //! |---|---|
 //! | this one | the run: its steps, and what theory says of the traffic now |
 //! | `recorder` | what is recorded on the way: map, time series, growth of waves |
+//! | [`traffic`] | the traffic of an instant in a few numbers |
 //! | `edits` | changes: actions, parameters, a new start; previews of them |
 //!
 //! Memory is bounded however long the run. Tables for files come from the probes in [`crate::measurement`].
@@ -27,6 +28,7 @@
 
 mod edits;
 mod recorder;
+pub mod traffic;
 
 pub use recorder::{BINS, COLUMNS, Column, INTERVAL, MeasuredGrowth};
 
@@ -227,6 +229,10 @@ impl Live {
     /// for.
     pub fn modal_growth(&self) -> Vec<ModeGrowth> {
         self.recorder.modal_growth()
+    }
+    /// Number of those modes, also before they are measured.
+    pub fn modes_followed(&self) -> usize {
+        recorder::modes_followed(&self.simulation, &self.summary)
     }
     /// The time from which on that growth is measured, s.
     pub fn modal_from(&self) -> f64 {

@@ -33,6 +33,13 @@ const ROUNDING: f64 = 2e-9;
 const SMALL: f64 = 0.2;
 /// After they were large, waves count as small again below this share.
 const SMALL_AGAIN: f64 = SMALL / 4.0;
+/// Number of modes whose growth is measured, from mode 1 on: twice the fastest mode, but at least 10, at most 40, and at
+/// most as many as the lane has.
+pub(super) fn modes_followed(simulation: &Simulation, theory: &StabilitySummary) -> usize {
+    let most = simulation.vehicles_per_lane()[theory.lane - 1] / 2;
+    (2 * theory.mode.unwrap_or(1)).clamp(10, 40).min(most)
+}
+
 /// Rows for which the growth of all modes is followed after a change.
 const MODAL_ROWS: usize = 2400;
 /// What counts as linear there; as in the table `growth`.
@@ -226,11 +233,9 @@ impl Recorder {
         })
     }
 
-    /// Amplitudes of all modes up to twice the fastest, at least 10 and at most 40.
+    /// Amplitudes of all modes that are followed.
     fn record_modes(&mut self, simulation: &Simulation, theory: &StabilitySummary) {
-        let &StabilitySummary { lane, mode, .. } = theory;
-        let most = simulation.vehicles_per_lane()[lane - 1] / 2;
-        let modes = (2 * mode.unwrap_or(1)).clamp(10, 40).min(most);
+        let (lane, modes) = (theory.lane, modes_followed(simulation, theory));
         let (every, from) = (self.every, self.modal_from);
         let modal = self.modal.get_or_insert_with(|| ModalGrowth::new(every, modes, lane - 1, from, LINEAR));
         if modal.rows() < MODAL_ROWS {

@@ -84,6 +84,7 @@ pub struct Linear {
 
 /// What ended the linear window of a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum WindowEnd {

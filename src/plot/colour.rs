@@ -23,6 +23,8 @@ pub const LARGEST: f64 = 10.0;
 
 /// What a colour stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(test, ts(rename_all = "lowercase"))]
 pub enum Quantity {
     /// Difference from the equilibrium speed, m/s, signed logarithmic.
     Difference,

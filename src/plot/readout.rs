@@ -39,6 +39,7 @@ impl Plot {
 
 /// The rectangle between the axes of a panel, in units of the picture, and the values that can be read in it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Field<'a> {
     /// The panel's title.
     pub title: &'a str,
@@ -60,6 +61,7 @@ pub struct Field<'a> {
 
 /// Values that can be read off a picture (seven digits of them), and where they are drawn, in units of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Mark<'a> {
@@ -72,8 +74,10 @@ pub enum Mark<'a> {
         /// Ordinates.
         y: Vec<f32>,
         /// Lower ends of the band about the curve, or of the error bars; empty where there are none.
+        #[cfg_attr(test, ts(type = "Array<number | null>"))]
         low: Vec<f32>,
         /// Upper ends; empty where there are none.
+        #[cfg_attr(test, ts(type = "Array<number | null>"))]
         high: Vec<f32>,
         /// Distance of the points from the left edge of the picture.
         right: Vec<f32>,
@@ -91,6 +95,7 @@ pub enum Mark<'a> {
         /// Centres of the first and the last cell along y.
         y: (f32, f32),
         /// Values, row by row, from the lowest y; `null` where there is none.
+        #[cfg_attr(test, ts(type = "Array<number | null>"))]
         values: Vec<f32>,
         /// Left and right edge in the picture.
         across: (f64, f64),

@@ -26,6 +26,7 @@ use std::f64::consts::PI;
 /// A characteristic root in continuous time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct ModeRoot {
     /// q.
     pub mode: usize,
@@ -124,6 +125,7 @@ fn roots_of_modes(
 /// The roots of a lane as a picture shows them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct LaneRoots {
     /// Vehicles in the lane.
     pub vehicles: usize,

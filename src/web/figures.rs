@@ -1,66 +1,57 @@
-//! The door of the WebAssembly module for the paper's figures: what there is, one piece of work at a time, and what
-//! all pieces together give. Workers each do some pieces; any of them can put them together.
+//! The WebAssembly module of the paper's figures: the list of figures, one task of a figure at a time, and a figure
+//! assembled from the results of all its tasks. Several workers may each do some tasks; any of them can assemble.
 
 use super::refusal;
 use crate::error::Error;
-use crate::reproduction::claim::{Claim, ClaimVerdict};
+use crate::format::json;
 use crate::reproduction::{FIGURES, Figure, Outcome, Size, Task, TaskResult};
+use crate::web::types::{Claim, FigureInfo};
 use js_sys::Float64Array;
-use serde_json::{Value, json};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::*;
 
-/// Every figure as JSON: identifier, title, caption, whether it goes beyond the paper, number of pieces.
+/// Every figure: a list of `FigureInfo` as JSON.
 #[wasm_bindgen]
 pub fn figures() -> String {
-    let one = |f: &Figure| {
-        json!({
-            "id": f.id,
-            "title": f.title,
-            "caption": f.caption,
-            "beyond": f.beyond,
-            "pieces": f.tasks(Size::Full).len(),
-        })
-    };
-    Value::from(FIGURES.iter().map(one).collect::<Vec<_>>()).to_string()
+    json::text(&FIGURES.iter().map(FigureInfo::from).collect::<Vec<_>>())
 }
 
-/// One piece of a figure's work, counted from 0, in slices.
+/// One task of a figure, done in slices.
 #[wasm_bindgen]
-pub struct FigureWork(Box<dyn Task>);
+pub struct FigureTask(Box<dyn Task>);
 
 #[wasm_bindgen]
-impl FigureWork {
-    /// Begins it.
+impl FigureTask {
+    /// Begins task number `task`, counted from 0, of a figure.
     #[wasm_bindgen(constructor)]
-    pub fn new(id: &str, piece: usize) -> Result<FigureWork, JsError> {
+    pub fn new(id: &str, task: usize) -> Result<FigureTask, JsError> {
         let figure = Figure::named(id).map_err(refusal)?;
         let count = figure.tasks(Size::Full).len();
-        if piece >= count {
+        if task >= count {
             let allowed = format!("0 to {} for {id}", count - 1);
-            return Err(refusal(Error::out_of_range("piece", piece, allowed)));
+            return Err(refusal(Error::out_of_range("task", task, allowed)));
         }
-        Ok(Self(figure.start(Size::Full, piece)))
+        Ok(Self(figure.start(Size::Full, task)))
     }
 
-    /// Goes on for about so many updates of a vehicle; gives what came out when it is done.
+    /// Continues for about so many updates of a vehicle. Returns the result when the task is done.
     pub fn advance(&mut self, updates: u32) -> Option<Vec<f64>> {
-        self.0.advance(updates.into()).map(|piece| piece.flat())
+        self.0.advance(updates.into()).map(|result| result.flat())
     }
 }
 
-/// A figure put together from all its pieces.
+/// A figure assembled from the results of all its tasks.
 #[wasm_bindgen]
 pub struct FigureOutcome(Outcome);
 
 #[wasm_bindgen]
 impl FigureOutcome {
-    /// From the pieces in their order.
+    /// From the results in the order of the tasks.
     #[wasm_bindgen(constructor)]
-    pub fn new(id: &str, pieces: Vec<Float64Array>) -> Result<FigureOutcome, JsError> {
-        let pieces: Result<Vec<_>, _> = pieces.iter().map(|p| TaskResult::from_flat(&p.to_vec())).collect();
+    pub fn new(id: &str, results: Vec<Float64Array>) -> Result<FigureOutcome, JsError> {
+        let results: Result<Vec<_>, _> = results.iter().map(|r| TaskResult::from_flat(&r.to_vec())).collect();
         let figure = Figure::named(id).map_err(refusal)?;
-        figure.assemble(Size::Full, &pieces.map_err(refusal)?).map(Self).map_err(refusal)
+        figure.assemble(Size::Full, &results.map_err(refusal)?).map(Self).map_err(refusal)
     }
 
     /// The picture, the same bytes as the command writes.
@@ -68,9 +59,9 @@ impl FigureOutcome {
         self.0.plot.to_svg()
     }
 
-    /// Where the axes of its panels lie and what they span, as JSON.
+    /// The axes of its panels and what can be read there: a list of `Field` as JSON.
     pub fn fields(&self) -> String {
-        serde_json::to_string(&self.0.plot.fields()).unwrap_or_default()
+        json::text(&self.0.plot.fields())
     }
 
     /// Number of tables.
@@ -78,7 +69,7 @@ impl FigureOutcome {
         self.0.tables.len()
     }
 
-    /// Name of a table, which is that of its file without the ending.
+    /// Name of a table: that of its file without the ending.
     pub fn table_name(&self, table: usize) -> String {
         self.0.tables[table].name.clone()
     }
@@ -88,22 +79,8 @@ impl FigureOutcome {
         self.0.tables[table].to_csv()
     }
 
-    /// The claims as JSON: claim, paper, ours, verdict (`agrees`, `differs`, `open`), method; numbers with units.
+    /// The claims of the paper beside what was measured: a list of `Claim` as JSON.
     pub fn claims(&self) -> String {
-        let one = |c: &Claim| {
-            let verdict = match c.verdict() {
-                ClaimVerdict::Agrees => "agrees",
-                ClaimVerdict::Differs => "differs",
-                ClaimVerdict::NotDetermined => "open",
-            };
-            json!({
-                "claim": c.claim,
-                "paper": c.paper(),
-                "ours": c.ours_in_words(),
-                "verdict": verdict,
-                "method": c.method_in_words(),
-            })
-        };
-        Value::from(self.0.claims.iter().map(one).collect::<Vec<_>>()).to_string()
+        json::text(&self.0.claims.iter().map(Claim::from).collect::<Vec<_>>())
     }
 }

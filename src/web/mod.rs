@@ -1,20 +1,29 @@
-//! The doors of the WebAssembly modules: numbers and texts in, typed arrays and JSON out, and the maps painted on
-//! their canvas. They decide nothing; a refusal comes out as the text of [`crate::error::Error`].
+//! The core as the page sees it: functions and classes of the two WebAssembly modules. Numbers and texts go in; typed
+//! arrays and JSON come out. Nothing is computed here: each function asks the layers below. An error comes out as an
+//! exception with the text of [`crate::error::Error`].
 //!
-//! There are two modules, so that who opens the laboratory does not load the paper's figures: the feature
-//! `laboratory` builds the one, `figures` the other, and a module carries only what its doors reach.
+//! There are two modules, so that a visitor of the laboratory does not load the paper's figures: the feature
+//! `laboratory` builds one, `figures` the other, and the linker leaves out what a module does not reach.
+//!
+//! [`types`] compiles natively too, since a test makes the page's TypeScript declarations from it.
 
-// What JavaScript hands over is owned, and errors go where `map_err` wants a function of one.
+// JavaScript hands over owned values, and `map_err` wants a function of an owned error.
 #![allow(clippy::needless_pass_by_value)]
 
-#[cfg(feature = "figures")]
+#[cfg(all(target_arch = "wasm32", feature = "laboratory"))]
+pub mod export;
+#[cfg(all(target_arch = "wasm32", feature = "figures"))]
 pub mod figures;
-#[cfg(feature = "laboratory")]
+#[cfg(all(target_arch = "wasm32", feature = "laboratory"))]
 pub mod laboratory;
-#[cfg(feature = "laboratory")]
+#[cfg(all(target_arch = "wasm32", feature = "laboratory"))]
+mod map_painter;
+#[cfg(all(target_arch = "wasm32", feature = "laboratory"))]
 pub mod stability;
+pub mod types;
 
-#[cfg(any(feature = "figures", feature = "laboratory"))]
+/// The exception that JavaScript sees.
+#[cfg(all(target_arch = "wasm32", any(feature = "figures", feature = "laboratory")))]
 fn refusal(e: crate::error::Error) -> wasm_bindgen::JsError {
     wasm_bindgen::JsError::new(&e.to_string())
 }

@@ -1,10 +1,11 @@
-//! What the page's stability tab asks for: curves, roots, and the growth of every mode.
+//! What the page's stability tab asks for: the stability diagram, the characteristic roots, and the growth of every
+//! mode, measured and predicted.
 
-use super::laboratory::{Lab, verdict};
+use super::laboratory::Lab;
 use super::refusal;
-use crate::format::json::{self, Json};
-use crate::measurement::modal_growth::ModeGrowth;
-use crate::stability::stability_diagram::StabilityDiagram;
+use crate::format::json;
+use crate::stability::stability_diagram;
+use crate::web::types::{ModalGrowth, StabilityDiagram, StabilitySummary};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::*;
 
@@ -12,77 +13,54 @@ use wasm_bindgen::prelude::*;
 const POINTS: usize = 400;
 /// Modes whose roots are shown.
 const MODES: usize = 200;
-/// Modes with a curve in the plane, more than can be told apart there.
+/// Modes with a curve in the stability diagram, more than can be told apart there.
 const CURVES: usize = 100;
 
 #[wasm_bindgen]
 impl Lab {
-    fn numbers(&mut self) -> (StabilityDiagram, Vec<usize>) {
-        let plane = self.live.stability_diagram();
-        (plane, plane.numbers(self.live.stability_summary().vehicles, POINTS))
+    /// The diagram of the lane that the stability summary speaks of, and the numbers of vehicles of its curves.
+    fn diagram_and_numbers(&mut self) -> (stability_diagram::StabilityDiagram, Vec<usize>) {
+        let diagram = self.live.stability_diagram();
+        (diagram, diagram.numbers(self.live.stability_summary().vehicles, POINTS))
     }
 
-    /// The plane of the lane that the verdict speaks of: the number of vehicles beyond which it is a jam; the reaction
-    /// time of its drivers, or of those without an exception; then numbers of vehicles, and as many critical reaction
-    /// times (s) in continuous time, in steps, and by Newell's limit. What is not finite: every one is stable.
-    pub fn plane(&mut self) -> Vec<f64> {
-        let (plane, numbers) = self.numbers();
-        let curves = plane.curves(numbers.iter().copied());
-        let mut all = vec![plane.jam(), plane.driver.reaction_time];
-        all.extend(numbers.iter().map(|&n| n as f64));
-        for column in [curves.continuous_s, curves.discrete_s, curves.newell_s] {
-            all.extend(column.into_iter().map(|tau| tau.unwrap_or(f64::INFINITY)));
-        }
-        all
+    /// The stability diagram of that lane: a `StabilityDiagram` as JSON.
+    pub fn diagram(&mut self) -> String {
+        let (diagram, numbers) = self.diagram_and_numbers();
+        json::text(&StabilityDiagram::new(&diagram, numbers))
     }
 
-    /// Critical reaction times of single modes (s), mode after mode, over the same numbers of vehicles: infinite in
-    /// the jam, NaN where there is no such mode. Of very many modes a choice, evenly spread.
-    pub fn plane_modes(&mut self, in_steps: bool) -> Vec<f64> {
-        let (plane, numbers) = self.numbers();
+    /// Critical reaction times of single modes (s), mode after mode, over the numbers of vehicles of the diagram:
+    /// infinite beyond the jam, NaN where there is no such mode. Where there are very many modes, some of them,
+    /// evenly spread.
+    pub fn diagram_modes(&mut self, in_steps: bool) -> Vec<f64> {
+        let (diagram, numbers) = self.diagram_and_numbers();
         let most = numbers.last().map_or(0, |n| n / 2);
         let modes = (1..=most).step_by(most.div_ceil(CURVES).max(1));
-        modes.flat_map(|q| plane.critical_of_mode(q, &numbers, plane.time(in_steps))).collect()
+        modes.flat_map(|q| diagram.critical_of_mode(q, &numbers, diagram.time(in_steps))).collect()
     }
 
     /// The largest growth rate (1/s) with so many vehicles at `count` reaction times from 0 to `highest` s.
     pub fn growth_rates(&mut self, vehicles: usize, highest: f64, count: u32, in_steps: bool) -> Vec<f64> {
-        let plane = self.live.stability_diagram();
+        let diagram = self.live.stability_diagram();
         let delays = (0..count).map(|k| highest * f64::from(k) / f64::from((count - 1).max(1)));
-        plane.growth_rates(vehicles, delays, plane.time(in_steps))
+        diagram.growth_rates(vehicles, delays, diagram.time(in_steps))
     }
 
-    /// The characteristic roots of the lane that the verdict speaks of, as JSON.
+    /// The characteristic roots of that lane: `Roots` as JSON.
     pub fn roots(&mut self) -> String {
         json::text(&self.live.roots(1, MODES))
     }
 
-    /// Growth of each of its modes since the last change, measured and predicted, as JSON.
+    /// Growth of each of its modes since the last change, measured and predicted: a `ModalGrowth` as JSON.
     pub fn modal_growth(&self) -> String {
-        let starts = self.live.modal_from();
-        let modes: Json = self.live.modal_growth().iter().map(mode).collect();
-        Json::object([("starts", starts.into()), ("modes", modes)]).to_string()
+        json::text(&ModalGrowth::of(&self.live))
     }
 
-    /// What theory would say at that reaction time with so many vehicles on all lanes (none: where they are now), as JSON.
+    /// What theory would say at that reaction time with so many vehicles on all lanes, or (`undefined`) with the
+    /// vehicles where they are now: a `StabilitySummary` as JSON.
     pub fn preview_point(&self, vehicles: Option<String>, reaction_time: &str) -> Result<String, JsError> {
-        self.live
-            .preview_point(vehicles.as_deref(), reaction_time)
-            .map(|v| verdict(&v).to_string())
-            .map_err(refusal)
+        let summary = self.live.preview_point(vehicles.as_deref(), reaction_time).map_err(refusal)?;
+        Ok(json::text(&StabilitySummary::from(&summary)))
     }
-}
-
-/// Growth of one mode.
-fn mode(growth: &ModeGrowth) -> Json {
-    Json::object([
-        ("mode", growth.mode.into()),
-        ("rate", growth.rate.into()),
-        ("standard_error", growth.standard_error.into()),
-        ("predicted", growth.predicted.into()),
-        ("nonlinear_bound", growth.nonlinear_bound.into()),
-        ("from", growth.from.into()),
-        ("to", growth.to.into()),
-        ("ended_by", growth.ended_by.text().into()),
-    ])
 }

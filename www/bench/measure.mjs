@@ -112,7 +112,7 @@ export function plane() {
     }
     if (total < map.total) map = { total, longest }
   }
-  const curves = () => [lab.plane(), lab.plane_modes(true), lab.plane_modes(false)]
+  const curves = () => [lab.diagram(), lab.diagram_modes(true), lab.diagram_modes(false)]
   const best = Math.min(...Array.from({ length: REPETITIONS }, () => timed(curves)))
   lab.free()
   return { map, curves: best }

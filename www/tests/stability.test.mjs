@@ -164,7 +164,7 @@ for (const colorScheme of ['light', 'dark']) {
     const before = await at(page, 98, 0.83)
     await page.check('#plane-modes')
     await page.waitForTimeout(600)
-    const count = await page.evaluate(async () => (await window.ringroad.client.ask('planeModes', { steps: true })).length)
+    const count = await page.evaluate(async () => (await window.ringroad.client.ask('diagramModes', { steps: true })).length)
     equal(count, 132 * 66, 'a value for every number of vehicles and mode')
     await page.uncheck('#plane-modes')
     await choose(page, 'regions', { wait: false })

@@ -26,8 +26,8 @@ class FakeClient implements Client {
   }
 }
 const frame = (step: number, taken: number, epoch: number) =>
-  ({ step, taken, time: step * 0.01, finished: false, collision: null, epoch, changes: 1, rows: Float64Array.of(step * 0.01, 10, Number.NaN, 0, 11) }) as unknown as Frame
-const snapshot = () => ({ scenario: { vehicles: 10, lanes: 1, time_step: 0.01 }, watched: [1], interval: 0.5, changes: 1 }) as unknown as Snapshot
+  ({ step, taken, time: step * 0.01, finished: false, collision: null, epoch, changes: 1, rows: { time: [step * 0.01], mean: [10], flow: [null], imbalance: [0], speeds: [[11]] } }) as unknown as Frame
+const snapshot = () => ({ scenario: { vehicles: 10, lanes: 1, time_step: 0.01 }, watched: [1], interval: 0.5, map_window: 2, changes: 1 }) as unknown as Snapshot
 const start = { map: { columns: 4, bins: 10 } } as Start
 
 let frames: ((now: number) => void)[] = []
@@ -94,7 +94,7 @@ test('a refusal is reported and changes nothing; a cancelled request is not repo
   expect(await session.set('vehicles', '300')).toBe(false)
   expect(seen).toEqual(['vehicles: 300 is not allowed'])
   expect(session.snapshot).toBe(before)
-  client.refuse = new Cancelled('cancelled')
+  client.refuse = new Cancelled()
   expect(await session.seek(5)).toBe(false)
   expect(seen.length).toBe(1)
 })
@@ -125,7 +125,8 @@ test('a restarted run restarts its charts', async () => {
 
 test('the series keep as many values as the map has columns', () => {
   const series = { time: [], mean: [], flow: [], imbalance: [], speeds: [[], []] } as Parameters<typeof append>[0]
-  append(series, Float64Array.from({ length: 60 }, (_, k) => k), 4)
+  const count = (from: number) => Array.from({ length: 10 }, (_, k) => from + 6 * k)
+  append(series, { time: count(0), mean: count(1), flow: count(2), imbalance: count(3), speeds: [count(4), count(5)] }, 4)
   expect(series.time).toEqual([36, 42, 48, 54])
   expect(series.speeds).toEqual([
     [40, 46, 52, 58],

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest'
 import { readHash } from '../src/app/url'
 import { exactly, fixed, span } from '../src/text/format'
-import type { Verdict } from '../src/core/protocol'
+import type { StabilitySummary } from '../src/core/protocol'
 import { en } from '../src/text/en'
 import { inWords } from '../src/views/actions'
 import { written } from '../src/app/parameters'
@@ -42,9 +42,9 @@ test('the page takes the entries that it reads out of a link', () => {
   expect(readHash('#view=elsewhere').scenario).toBe('view=elsewhere')
 })
 
-const verdict: Verdict = {
+const verdict: StabilitySummary = {
   stable: false,
-  alike: true,
+  homogeneous: true,
   reaction_time: 0.75,
   critical: 0.683869,
   critical_discrete: 0.678869,

@@ -1,6 +1,6 @@
 // The session: what is open and how it is looked at. Views listen to its events and ask it for changes; it asks the core.
 import { Cancelled, type Client } from '../core/client'
-import type { Answer, Ask, Frame, Legends, Name, Opened, Snapshot, Start, View } from '../core/protocol'
+import type { Answer, Ask, Frame, ColourBars, Name, Opened, Snapshot, Start, View } from '../core/protocol'
 import { text } from '../text'
 import { Emitter } from './events'
 import { Playback } from './playback'
@@ -17,7 +17,7 @@ interface Events {
   opened: string
   /** Played, paused, another playback, or behind it. */
   playing: boolean
-  legends: Legends
+  legends: ColourBars
   watch: number
   /** Sentences that say what was refused and why; an empty list clears them. */
   problem: readonly string[]
@@ -28,7 +28,7 @@ interface Events {
 export class Session extends Emitter<Events> {
   snapshot!: Snapshot
   frame!: Frame
-  legends!: Legends
+  legends!: ColourBars
   view: View
   /** The vehicle that the page follows, index from 0. */
   watched = 0
@@ -47,7 +47,7 @@ export class Session extends Emitter<Events> {
     dark: boolean,
   ) {
     super()
-    this.view = { ring: 'difference', map: 'difference', dark, lane: 0, riding: false }
+    this.view = { ring: 'difference', map: 'difference', dark, lane: 0, coMoving: false }
     this.playback = new Playback(this)
   }
 
@@ -160,7 +160,7 @@ export class Session extends Emitter<Events> {
 
   /** The times (s) that map and charts begin and end at. */
   window(): [number, number] {
-    return timeWindow(this.series, this.snapshot.interval, this.start.map.columns)
+    return timeWindow(this.series, this.snapshot.interval, this.snapshot.map_window)
   }
 
   /** Tells the core how to paint, and gets the present frame in its colours. */

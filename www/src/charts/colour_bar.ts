@@ -1,10 +1,10 @@
 // A colour bar: the colours of a quantity from low to high, with numbers and the unit.
 import { el } from '../ui/dom'
 import { fixed } from '../text/format'
-import type { Legend, Quantity } from '../core/protocol'
+import type { ColourBar, Quantity } from '../core/protocol'
 import { text } from '../text'
 
-export function legendView(): { element: HTMLElement; show: (legend: Legend, quantity: Quantity) => void } {
+export function legendView(): { element: HTMLElement; show: (legend: ColourBar, quantity: Quantity) => void } {
   const low = el('span')
   const high = el('span')
   const bar = el('canvas', { class: 'bar', width: 64, height: 1, role: 'img' })

@@ -1,7 +1,8 @@
-// The compiled modules of the core inside the page, as base64, and the page's own script from the page.
+// For the one-file page: the compiled modules of the core are in the page, as base64, and the worker runs the page's own
+// script. The build uses it instead of assets.ts.
 import figuresUrl from '../../pkg-figures/figures_bg.wasm?url&inline'
 import laboratoryUrl from '../../pkg/ringroad_bg.wasm?url&inline'
-import * as figuresDoor from './figures'
+import * as figuresModule from './figures'
 
 const urls = { laboratory: laboratoryUrl, figures: figuresUrl }
 
@@ -17,5 +18,5 @@ export const startWorker = (): Worker => {
   return new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })))
 }
 
-/** Not by `import()`: what the build makes of it is not allowed in a classic worker. */
-export const figures = async () => figuresDoor
+/** Without `import()`: the build turns that into code that a classic worker may not run. */
+export const figures = async () => figuresModule

@@ -1,5 +1,5 @@
-// What lies beside the page: the compiled modules of the core, and the script for the worker. In the one-file page the
-// build takes assets.inline.ts instead.
+// Files beside the page: the compiled modules of the core, and the script of the worker. For the one-file page the build
+// uses assets.inline.ts instead.
 import figuresUrl from '../../pkg-figures/figures_bg.wasm?url'
 import laboratoryUrl from '../../pkg/ringroad_bg.wasm?url'
 
@@ -15,5 +15,5 @@ export const wasmBytes = async (module: keyof typeof urls): Promise<ArrayBuffer>
 /** A worker that runs the page's own script. */
 export const startWorker = (): Worker => new Worker(import.meta.url, { type: 'module' })
 
-/** The paper's figures are a module of their own, which the laboratory does without. */
+/** The module of the paper's figures, loaded when it is first used. */
 export const figures = () => import('./figures')

@@ -1,15 +1,16 @@
-// The core's side of the door: answers questions, one after the other, and cuts long ones into slices so that
-// whoever shares its thread stays alive. It computes nothing; it asks the compiled core.
-import { Export, Lab, initSync, parameters, presets, version } from '../../pkg/ringroad.js'
-import { CANCELLED } from './client'
+// Answers the page's questions with the compiled core, in a worker or on the main thread. Long computations are cut
+// into slices, with a pause after each, so that other questions (and, on the main thread, the page) are served meanwhile.
+import { Export, Lab, initSync, start } from '../../pkg/ringroad.js'
 import { figures } from './assets'
-import type { Answer, Ask, Frame, Name, Opened, Snapshot } from './protocol'
+import { Cancelled } from './client'
+import { type Frame, vehicleArrays } from './frame'
+import type { Answer, Ask, Name, Opened, Snapshot } from './protocol'
 
 /** Milliseconds of a slice of a long computation. */
 const SLICE = 12
-/** Of a slice of the map of growth rates, which is done beside the traffic. */
+/** Milliseconds of a slice of the map of growth rates, which is computed while the traffic runs. */
 const MAP_SLICE = 6
-/** Updates of a vehicle that take a millisecond or a few. */
+/** Updates of a vehicle that take a few milliseconds. */
 const UPDATES = 100_000
 
 type Progress = (part: number) => void
@@ -18,11 +19,11 @@ type Answers = { [K in Name]: (ask: Ask<K>, progress: Progress) => Answer<K> | P
 export class Host {
   #lab: Lab | undefined
   #cancelled = false
-  /** Which map of growth rates goes on. */
+  /** Number of the latest request for growth rates; earlier ones end. */
   #map = 0
-  /** Steps that take about a millisecond: measured, since it depends on vehicles and machine. */
+  /** Steps that take about a millisecond. Adapted by measuring, since they depend on the vehicles and the machine. */
   #chunk = 16
-  /** Whether it stands on the page's own thread, where nothing but a pause lets anyone in. */
+  /** Whether it runs on the main thread, where the page is served only in pauses. */
   readonly #shared: boolean
 
   constructor(shared: boolean) {
@@ -47,7 +48,7 @@ export class Host {
     return { snapshot: this.#snapshot(), messages: JSON.parse(json) as string[] }
   }
 
-  /** Steps until `done` or until time is up. Returns the steps taken. */
+  /** Takes so many steps, or as many as the budget (ms) allows. Returns how many were taken. */
   #run(steps: number, budget: number): number {
     const lab = this.#core
     const end = performance.now() + budget
@@ -68,16 +69,16 @@ export class Host {
     return taken
   }
 
-  /** Lets other tasks in; throws if one of them asked to stop. */
-  async #breathe(): Promise<void> {
+  /** Lets other tasks run; throws if one of them has cancelled this one. */
+  async #pause(): Promise<void> {
     await new Promise(resolve => setTimeout(resolve))
     if (this.#cancelled) {
       this.#cancelled = false
-      throw new Error(CANCELLED)
+      throw new Cancelled()
     }
   }
 
-  /** Replays up to a step of the run. */
+  /** Repeats the run up to a step. */
   async #replay(step: number, progress: Progress): Promise<void> {
     this.#cancelled = false
     for (let done = this.#core.step_index(); done < step; ) {
@@ -85,7 +86,7 @@ export class Host {
       if (taken === 0) break
       done += taken
       progress(done / step)
-      await this.#breathe()
+      await this.#pause()
     }
   }
 
@@ -93,20 +94,12 @@ export class Host {
     start: ({ wasm }) => {
       initSync({ module: wasm })
       this.#lab = new Lab()
-      return {
-        parameters: JSON.parse(parameters()),
-        presets: JSON.parse(presets()),
-        map: { columns: this.#lab.map_columns(), bins: this.#lab.map_bins() },
-        version: version(),
-      }
+      return JSON.parse(start())
     },
     link: ({ text }) => this.#opened(this.#core.open_link(text)),
     file: ({ text }) => this.#opened(this.#core.open_file(text)),
     preset: ({ name }) => this.#opened(this.#core.open_preset(name)),
-    advance: ({ steps, budget }) => {
-      const taken = steps > 0 ? this.#run(steps, budget) : 0
-      return this.#frame(taken)
-    },
+    advance: ({ steps, budget }) => this.#frame(steps > 0 ? this.#run(steps, budget) : 0),
     snapshot: () => this.#snapshot(),
     act: ({ text }) => {
       this.#core.act(text)
@@ -118,14 +111,8 @@ export class Host {
     },
     preview: ({ name, value }) => JSON.parse(this.#core.preview(name, value)),
     previewPoint: ({ vehicles, reactionTime }) => JSON.parse(this.#core.preview_point(vehicles?.toString(), String(reactionTime))),
-    plane: () => {
-      const [jam, reaction_time, ...all] = this.#core.plane()
-      const count = all.length / 4
-      const column = (k: number) => all.slice(k * count, (k + 1) * count).map(v => (Number.isFinite(v) ? v : null))
-      const curves = { vehicles: all.slice(0, count), continuous_s: column(1), discrete_s: column(2), newell_s: column(3) }
-      return { jam: jam!, reaction_time: reaction_time!, curves }
-    },
-    planeModes: ({ steps }) => this.#core.plane_modes(steps),
+    diagram: () => JSON.parse(this.#core.diagram()),
+    diagramModes: ({ steps }) => this.#core.diagram_modes(steps),
     growthRates: async ({ vehicles, highest, count, steps, budget }) => {
       const job = ++this.#map
       const end = performance.now() + budget
@@ -165,12 +152,12 @@ export class Host {
       this.#core.extend()
       return this.#snapshot()
     },
-    view: ({ ring, map, dark, lane, riding }) => JSON.parse(this.#core.view(ring, map, dark, lane, riding)),
+    view: ({ ring, map, dark, lane, coMoving }) => JSON.parse(this.#core.view(ring, map, dark, lane, coMoving)),
     canvas: ({ canvas }) => {
       this.#core.attach(canvas)
       return null
     },
-    probe: ({ column, bin }) => JSON.parse(this.#core.probe(column, bin)),
+    reading: ({ column, bin }) => JSON.parse(this.#core.reading(column, bin)),
     csv: async ({ measurement }, progress) => {
       this.#cancelled = false
       const run = new Export(this.#core.scenario_so_far(), measurement)
@@ -180,7 +167,7 @@ export class Host {
           let part = run.step(256)
           while (part < 1 && performance.now() < end) part = run.step(256)
           progress(part)
-          await this.#breathe()
+          await this.#pause()
           if (part >= 1) return run.csv()
         }
       } finally {
@@ -192,15 +179,15 @@ export class Host {
       return null
     },
     figures: async ({ wasm }) => (await figures()).start(wasm),
-    piece: async ({ figure, piece }) => {
-      const work = (await figures()).begin(figure, piece)
+    task: async ({ figure, task }) => {
+      const work = (await figures()).begin(figure, task)
       this.#cancelled = false
       try {
         for (let end = performance.now() + SLICE; ; ) {
-          const given = work.advance(UPDATES)
-          if (given) return given as Float64Array
+          const result = work.advance(UPDATES)
+          if (result) return result as Float64Array
           if (this.#shared && performance.now() >= end) {
-            await this.#breathe()
+            await this.#pause()
             end = performance.now() + SLICE
           }
         }
@@ -208,33 +195,12 @@ export class Host {
         work.free()
       }
     },
-    assemble: async ({ figure, pieces }) => (await figures()).assemble(figure, pieces),
+    assemble: async ({ figure, results }) => (await figures()).assemble(figure, results),
   }
 
   #frame(taken: number): Frame {
     const lab = this.#core
     lab.paint()
-    return {
-      time: lab.time(),
-      step: lab.step_index(),
-      taken,
-      finished: lab.finished(),
-      collision: JSON.parse(lab.collision()),
-      positions: lab.positions(),
-      speeds: lab.speeds(),
-      headways: lab.headways(),
-      perceived: lab.perceived_headways(),
-      frustration: lab.frustrations(),
-      distances: lab.distances(),
-      sizes: lab.sizes(),
-      lanes: lab.lanes(),
-      laneChanges: lab.lane_changes(),
-      colours: lab.colours(),
-      rows: lab.take_rows(),
-      epoch: lab.epoch(),
-      changes: lab.changes(),
-      growth: JSON.parse(lab.growth()),
-      large: lab.large_waves(),
-    }
+    return { ...JSON.parse(lab.take_state()), ...vehicleArrays(lab), taken }
   }
 }

@@ -1,7 +1,7 @@
-// The core on the main thread, in slices: for pages that forbid workers.
+// The core on the main thread, in slices: for pages in which workers are forbidden.
 import type { Answer, Ask, Name } from './protocol'
+import { type Client, failure, messageOf } from './client'
 import { Host } from './host'
-import { type Client, failure } from './client'
 
 export class LocalClient implements Client {
   readonly place = 'page'
@@ -12,7 +12,7 @@ export class LocalClient implements Client {
     try {
       return await this.#host.answer(name, ask, progress ?? (() => {}))
     } catch (e) {
-      throw failure(String(e instanceof Error ? e.message : e))
+      throw failure(messageOf(e))
     }
   }
 }

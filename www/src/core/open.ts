@@ -1,4 +1,4 @@
-// Opens the core: in a worker where that is allowed, else on the main thread.
+// Starts the core: in a worker where that is allowed, else on the main thread.
 import type { Start } from './protocol'
 import { wasmBytes } from './assets'
 import type { Client } from './client'

@@ -1,16 +1,16 @@
-// Several cores at once, for work that falls into independent pieces. Where workers are forbidden, the page's own
-// core does one piece after the other and lets the page breathe between them.
+// Several workers at once, for the independent tasks of a figure. Where workers are forbidden, the core on the main thread
+// does one task after the other, with pauses for the page between them.
 import { wasmBytes } from './assets'
 import { Cancelled, type Client } from './client'
 import { WorkerClient } from './worker_client'
 
-/** More than this gains little and costs memory. */
+/** Most workers: more of them gain little and cost memory. */
 const MOST = 8
-/** Milliseconds for which the page's own core keeps the page waiting. */
+/** Milliseconds after which the core on the main thread makes a pause. */
 const SLICE = 12
 
 export class Pool {
-  /** The page's own core, for a page without workers; it has the figures' module by then. */
+  /** The laboratory's client, used where workers are forbidden; the module of the figures is started in it by then. */
   readonly #own: Client
   #clients: Promise<Client[]> | null = null
   #stop: (() => void) | null = null
@@ -34,52 +34,52 @@ export class Pool {
   }
 
   /**
-   * Does pieces 0 … count − 1, then `last` with what they gave, in their order. Returns that, and the number of
-   * workers. One call at a time; `cancel` ends it.
+   * Does tasks 0 … count − 1, then `last` with their results, in the order of the tasks. Returns what `last` returns, and
+   * the number of workers. One call at a time; `cancel` ends it.
    */
-  async run<P, R>(
+  async run<T, R>(
     count: number,
-    piece: (core: Client, k: number) => Promise<P>,
-    last: (core: Client, pieces: P[]) => Promise<R>,
+    task: (core: Client, k: number) => Promise<T>,
+    last: (core: Client, results: T[]) => Promise<R>,
     progress: (done: number) => void,
   ): Promise<{ result: R; workers: number }> {
     let cancelled = false
-    const given = new Promise<never>((_, reject) => {
+    const stopped = new Promise<never>((_, reject) => {
       this.#stop = () => {
         cancelled = true
-        reject(new Cancelled('cancelled'))
+        reject(new Cancelled())
       }
     })
     const work = async () => {
       this.#clients ??= this.#open()
       const clients = await this.#clients
-      const pieces = new Array<P>(count)
+      const results = new Array<T>(count)
       let [next, done] = [0, 0]
       const each = async (core: Client) => {
-        let breathed = performance.now()
+        let paused = performance.now()
         while (next < count && !cancelled) {
           const k = next++
-          pieces[k] = await piece(core, k)
+          results[k] = await task(core, k)
           progress(++done)
-          if (core.place === 'page' && performance.now() - breathed > SLICE) {
+          if (core.place === 'page' && performance.now() - paused > SLICE) {
             await new Promise(resolve => setTimeout(resolve))
-            breathed = performance.now()
+            paused = performance.now()
           }
         }
       }
       await Promise.all(clients.map(each))
-      if (cancelled) throw new Cancelled('cancelled')
+      if (cancelled) throw new Cancelled()
       const workers = clients.filter(c => c.place === 'worker').length
-      return { result: await last(clients[0]!, pieces), workers }
+      return { result: await last(clients[0]!, results), workers }
     }
     try {
-      return await Promise.race([work(), given])
+      return await Promise.race([work(), stopped])
     } finally {
       this.#stop = null
     }
   }
 
-  /** Gives up what runs, at once: a worker in the midst of a piece is ended, and new ones start with the next run. */
+  /** Ends the present run at once: its workers are closed, and new ones are started for the next run. */
   cancel(): void {
     const clients = this.#clients
     if (this.#stop && clients) {

@@ -1,18 +1,17 @@
-// The worker: hands questions to the host and its answers back.
-import type { Frame, Question, Reply } from './protocol'
+// The worker's side: passes the page's questions to the host, and the host's answers back.
+import type { Question, Reply } from './protocol'
+import { messageOf } from './client'
 import { Host } from './host'
 
-/** What a worker's global scope is to us. */
+/** The part of a worker's global scope that is used here. */
 interface Scope {
   onmessage: (event: MessageEvent<Question>) => void
   postMessage(message: Reply, transfer?: Transferable[]): void
 }
 
-/** The typed arrays of a frame move to the page; nothing else does. */
+/** The buffers of the typed arrays directly in an answer (those of a frame): they move to the page uncopied. */
 const buffers = (answer: unknown): Transferable[] =>
-  answer !== null && typeof answer === 'object' && 'positions' in answer
-    ? Object.values(answer as Frame).flatMap(v => (ArrayBuffer.isView(v) ? [v.buffer as ArrayBuffer] : []))
-    : []
+  Object.values(answer ?? {}).flatMap(v => (ArrayBuffer.isView(v) ? [v.buffer as ArrayBuffer] : []))
 
 export function answerPage(): void {
   const scope = self as unknown as Scope
@@ -21,9 +20,9 @@ export function answerPage(): void {
     try {
       const progress = (part: number) => scope.postMessage({ kind: 'progress', id, part })
       const answer = await host.answer(name, ask as never, progress)
-      scope.postMessage({ kind: 'answer', id, answer }, buffers(answer))
+      scope.postMessage({ kind: 'answer', id, answer }, name === 'advance' ? buffers(answer) : [])
     } catch (e) {
-      scope.postMessage({ kind: 'error', id, message: String(e instanceof Error ? e.message : e) })
+      scope.postMessage({ kind: 'error', id, message: messageOf(e) })
     }
   }
   scope.postMessage({ kind: 'ready' })

@@ -1,5 +1,5 @@
-// The core in a worker. A policy that forbids workers shows itself as an error event, not as a throw; so the
-// client counts as open only when the worker has spoken.
+// The core in a worker. Where a policy forbids workers, the browser reports it by an error event, not by an exception; so
+// the client is ready only after the worker's first message.
 import type { Answer, Ask, Name, Question, Reply } from './protocol'
 import { startWorker } from './assets'
 import { type Client, failure } from './client'
@@ -22,7 +22,7 @@ export class WorkerClient implements Client {
     worker.onmessage = ({ data }: MessageEvent<Reply>) => this.#receive(data)
   }
 
-  /** Rejects where the page may not have workers. */
+  /** Starts a worker. Rejects where workers are forbidden, or after `patience` milliseconds without a message. */
   static open(patience = 4000): Promise<WorkerClient> {
     return new Promise((resolve, reject) => {
       const worker = startWorker()
@@ -47,13 +47,13 @@ export class WorkerClient implements Client {
     return new Promise((resolve, reject) => {
       const question: Question = { id: this.#next++, name, ask }
       this.#waiting.set(question.id, { resolve: resolve as (answer: never) => void, reject, progress })
-      // A canvas moves to the core; everything else is copied (the fallback may need the bytes again).
+      // A canvas moves to the worker. Everything else is copied, since the main thread may need the bytes again.
       const moved = name === 'canvas' ? [(ask as Ask<'canvas'>).canvas] : []
       this.#worker.postMessage(question, moved)
     })
   }
 
-  /** Ends the worker; what was asked stays without an answer. */
+  /** Ends the worker. Open requests stay without an answer. */
   close(): void {
     this.#worker.terminate()
     this.#waiting.clear()

@@ -1,7 +1,7 @@
 // Every text of the page, in English; a second language is a second object of this type. The core's refusals are shown in the
 // core's own words.
 import { exactly, fixed, span, unit } from './format'
-import type { Growth, Verdict } from '../core/protocol'
+import type { Growth, StabilitySummary, WindowEnd } from '../core/protocol'
 
 const seconds = (s: number) => unit(fixed(s, 3), 's')
 /** A critical reaction time (s); null: every reaction time is stable. */
@@ -56,14 +56,14 @@ export const en = {
     stable: 'Stable',
     unstable: 'Unstable',
     open: 'No wave',
-    critical: (v: Verdict): string => {
+    critical: (v: StabilitySummary): string => {
       if (v.stable === null) return 'No wave can run on this ring: its vehicles stand, or there is only one.'
-      if (!v.alike && v.scale !== null) {
+      if (!v.homogeneous && v.scale !== null) {
         return v.stable
           ? `With these drivers every small wave fades, up to reaction times ${fixed(v.scale, 2)} times as long.`
           : `With these drivers a small wave grows; it would fade with ${fixed(v.scale, 2)} times their reaction times.`
       }
-      if (!v.alike || v.critical_discrete === null) {
+      if (!v.homogeneous || v.critical_discrete === null) {
         return v.stable
           ? 'With these drivers every small wave fades.'
           : 'With these drivers a small wave grows.'
@@ -71,7 +71,7 @@ export const en = {
       if (v.critical_discrete <= 0) return `Drivers react after ${seconds(v.reaction_time)}; no delay at all would be small enough.`
       return `Drivers react after ${seconds(v.reaction_time)}; this ring tolerates ${tau(v.critical_discrete)}${v.critical === null || v.critical >= 1000 ? '' : ` (τ = ${tau(v.critical)})`}.`
     },
-    wave: (v: Verdict): string => {
+    wave: (v: StabilitySummary): string => {
       if (v.stable === null || v.rate === null || v.mode === null || v.rate === 0) return ''
       return v.stable
         ? `Its slowest wave, ${jams(v.mode)}, ${growth(v.rate)}.`
@@ -311,12 +311,15 @@ export const en = {
     changing: 'Lane changes go on: nothing measured.',
     nothing: 'Nothing is measured yet.',
     quiet: 'No wave to measure: nudge a car.',
-    linear: (from: number, bound: number | null): string =>
-      `Linear since t = ${unit(fixed(from, 1), 's')}${bound === null ? '' : `, within ±${unit(short(bound), '1/s')}`}.`,
-    left: (to: number, bound: number | null): string =>
-      `Left the linear regime at t = ${unit(fixed(to, 1), 's')}${bound === null ? '' : `; until then within ±${unit(short(bound), '1/s')}`}.`,
-    disturbed: (to: number): string => `Disturbed at t = ${unit(fixed(to, 1), 's')}.`,
-    faded: (to: number): string => `Faded into rounding at t = ${unit(fixed(to, 1), 's')}.`,
+    /** What ended the time, from `from` to `to` (s), in which the mode was linear; its rate is known to ±`bound` (1/s). */
+    ended: {
+      end_of_run: (from, _to, bound) => `Linear since t = ${unit(fixed(from, 1), 's')}${bound === null ? '' : `, within ±${unit(short(bound), '1/s')}`}.`,
+      left_linear_regime: (_from, to, bound) =>
+        `Left the linear regime at t = ${unit(fixed(to, 1), 's')}${bound === null ? '' : `; until then within ±${unit(short(bound), '1/s')}`}.`,
+      disturbed: (_from, to) => `Disturbed at t = ${unit(fixed(to, 1), 's')}.`,
+      sank_into_rounding: (_from, to) => `Faded into rounding at t = ${unit(fixed(to, 1), 's')}.`,
+      never_linear: () => '',
+    } as Record<WindowEnd, (from: number, to: number, bound: number | null) => string>,
     large: 'Waves are too large now for linear theory.',
     differ: 'Drivers differ: modes mix.',
     differHint: 'Theory: the ring’s roots, each followed from the mode of equal drivers.',

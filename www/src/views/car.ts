@@ -58,7 +58,7 @@ export function carView(session: Session): HTMLElement {
     put('perceived', unit(exactly(frame.perceived[j]!, 2), 'm'))
     put('lane', String(frame.lanes[j]! + 1))
     put('frustration', exactly(phi, 2))
-    put('attempt', unit(fixed((200 / Math.PI) * Math.atan(phi), 1), '%'))
+    put('attempt', unit(fixed(100 * frame.attempt[j]!, 1), '%'))
     put('changes', String(frame.laneChanges[j]!))
     put('distance', unit(fixed(frame.distances[j]! / 1000, 2), 'km'))
   }

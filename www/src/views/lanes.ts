@@ -29,10 +29,8 @@ export function lanesView(session: Session): HTMLElement {
     const { lanes } = session.snapshot.scenario
     imbalance.show(time, [delta], window, 0, Math.max(4, most(delta)) * 1.05)
     flow.show(time, [perHour], window, 0, Math.max(1000, most(perHour)) * 1.1)
-    const { lanes: occupied, laneChanges } = session.frame
-    const each = Array.from({ length: lanes }, () => 0)
-    for (const lane of occupied) each[lane]!++
-    counts.textContent = lanes === 1 ? t.one : `${t.counts(each)} · ${t.changes(laneChanges.reduce((a, b) => a + b, 0))}`
+    const { vehicles_per_lane, lane_changes } = session.frame.traffic
+    counts.textContent = lanes === 1 ? t.one : `${t.counts(vehicles_per_lane)} · ${t.changes(lane_changes)}`
   }
   session.on('legends', () => session.snapshot && restyle())
   session.on('snapshot', ({ flow_window, scenario }) => {

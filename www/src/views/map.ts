@@ -28,7 +28,7 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     'aria-label': t.lane,
     onchange: () => void session.look({ lane: Number(lane.value) }),
   })
-  const coMoving = el('input', { type: 'checkbox', id: 'ride', onchange: () => void session.look({ riding: coMoving.checked }) })
+  const coMoving = el('input', { type: 'checkbox', id: 'ride', onchange: () => void session.look({ coMoving: coMoving.checked }) })
   const foot = el(
     'div',
     { class: 'map-foot' },
@@ -66,7 +66,7 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     const numbers = positions.map(position => fixed(position, 0))
     field.style.setProperty('--digits', String(Math.max(3, ...numbers.map(number => number.length))))
     y.replaceChildren(
-      el('span', { class: 'name' }, session.view.riding ? t.coMovingPosition : t.position),
+      el('span', { class: 'name' }, session.view.coMoving ? t.coMovingPosition : t.position),
       ...positions.map((position, k) => {
         const up = position / scenario.length
         return el('span', { style: `top:${Math.min(97, Math.max(3, 100 - 100 * up))}%` }, numbers[k])
@@ -89,16 +89,16 @@ export async function mapView(session: Session): Promise<HTMLElement> {
     const box = picture.getBoundingClientRect()
     const column = Math.floor(((event.clientX - box.left) / box.width) * visible)
     const bin = Math.floor((1 - (event.clientY - box.top) / box.height) * bins)
-    const reading = await session.client.ask('probe', { column, bin })
+    const reading = await session.client.ask('reading', { column, bin })
     asking = false
-    if (reading && Number.isFinite(reading.speed)) {
-      note.textContent = t.reading(reading.time, reading.position, reading.speed, reading.speed - reading.equilibrium)
+    if (reading && reading.speed !== null && reading.difference !== null) {
+      note.textContent = t.reading(reading.time, reading.position, reading.speed, reading.difference)
     }
   })
   picture.addEventListener('pointerleave', describe)
   session.on('legends', legends => {
     quantity.value = session.view.map
-    coMoving.checked = session.view.riding
+    coMoving.checked = session.view.coMoving
     legend.show(legends.map, session.view.map)
     describe()
     if (session.snapshot) redrawAxes()

@@ -2,18 +2,18 @@
 // it is about the value that the control would set.
 import { button, el } from '../ui/dom'
 import type { Session } from '../app/session'
-import type { Verdict } from '../core/protocol'
+import type { StabilitySummary } from '../core/protocol'
 import { text } from '../text'
 
 const t = text.summary
 
-export function summaryView(session: Session): { element: HTMLElement; preview: (summary: Verdict | null) => void } {
+export function summaryView(session: Session): { element: HTMLElement; preview: (summary: StabilitySummary | null) => void } {
   const mark = el('strong')
   const sentence = el('span', { class: 'sentence' })
   const measured = el('span', { class: 'measured' })
   const more = button({ hidden: true, onclick: () => void session.extend() }, t.goOn)
   const element = el('div', { id: 'verdict', class: 'message' }, mark, el('div', {}, sentence, measured), more)
-  let preview: Verdict | null = null
+  let preview: StabilitySummary | null = null
 
   const put = (node: HTMLElement, value: string) => {
     if (node.textContent !== value) node.textContent = value

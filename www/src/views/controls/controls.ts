@@ -2,7 +2,7 @@
 // parameter changes the traffic from now on; any other starts the run again.
 import { brakeWatched, nudgeWatched } from '../../app/commands'
 import type { Session } from '../../app/session'
-import type { Parameter, Verdict } from '../../core/protocol'
+import type { Parameter, StabilitySummary } from '../../core/protocol'
 import { text } from '../../text'
 import { button, card, el } from '../../ui/dom'
 import { parameterControl } from './parameter'
@@ -40,7 +40,7 @@ function watchedButtons(session: Session): HTMLButtonElement[] {
   return [nudge, brake]
 }
 
-export function controlsView(session: Session, preview: (summary: Verdict | null) => void): HTMLElement {
+export function controlsView(session: Session, preview: (summary: StabilitySummary | null) => void): HTMLElement {
   const { parameters } = session.start
   const make = (p: Parameter) => parameterControl(session, p, preview)
   const first = FIRST.map(name => parameters.find(p => p.name === name)).filter(p => p !== undefined)

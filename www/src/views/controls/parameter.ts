@@ -2,7 +2,7 @@
 // opened. While the slider moves, the stability summary says what would hold.
 import { valueOf, written } from '../../app/parameters'
 import type { Session } from '../../app/session'
-import type { Parameter, Verdict } from '../../core/protocol'
+import type { Parameter, StabilitySummary } from '../../core/protocol'
 import { text } from '../../text'
 import { fixed } from '../../text/format'
 import { button, el } from '../../ui/dom'
@@ -46,7 +46,7 @@ function listenToSlider(slider: HTMLInputElement, moved: (value: number) => void
 }
 
 /** `preview` shows the stability summary for another value, or with null that of the run. */
-export function parameterControl(session: Session, parameter: Parameter, preview: (summary: Verdict | null) => void): HTMLElement {
+export function parameterControl(session: Session, parameter: Parameter, preview: (summary: StabilitySummary | null) => void): HTMLElement {
   const { symbol, meaning: title, unit, min, max, whole } = parameter
   const id = `p-${parameter.name}`
   const name = t.names[parameter.name] ?? parameter.name

@@ -69,13 +69,13 @@ export async function figuresView(session: Session): Promise<HTMLElement[]> {
 
   /** Runs a figure; how it ended, in words. */
   async function run(entry: Entry): Promise<string> {
-    const { id: figure, pieces: count } = entry.info
+    const { id: figure, tasks: count } = entry.info
     const before = performance.now()
     try {
       const { result, workers } = await pool.run<Float64Array, FigureOutcome>(
         count,
-        (core, piece) => core.ask('piece', { figure, piece }),
-        (core, pieces) => core.ask('assemble', { figure, pieces }),
+        (core, task) => core.ask('task', { figure, task }),
+        (core, results) => core.ask('assemble', { figure, results }),
         done => entry.say(done < count ? t.running(done, count) : t.assembling, done / count),
       )
       entry.outcome = result

@@ -86,14 +86,14 @@ export function drawVehicles(c: CanvasRenderingContext2D, g: Geometry, frame: Fr
     c.rotate(a)
     c.translate(r, 0)
     // Now the direction of travel is +y.
-    const length = Math.max(3, frame.sizes[2 * j]! * metre)
+    const length = Math.max(3, frame.lengths[j]! * metre)
     const thickness = Math.min(g.width * 0.6, Math.max(0.9 * length, 6.5))
     const box = (margin: number, corner: number) => {
       c.beginPath()
       c.roundRect(-thickness / 2 - margin, -length / 2 - margin, thickness + 2 * margin, length + 2 * margin, corner)
     }
     c.strokeStyle = colours.line
-    line(c, 0, length / 2, 0, Math.max(frame.sizes[2 * j + 1]! * metre, length / 2))
+    line(c, 0, length / 2, 0, Math.max(frame.minHeadways[j]! * metre, length / 2))
     c.fillStyle = fill
     c.strokeStyle = colours.ink
     c.lineWidth = 0.75

@@ -22,13 +22,11 @@ function middleView() {
     fit(inner: number) {
       kmh.hidden = density.hidden = inner < 75
     },
-    /** `rho`: vehicles per metre, on all lanes. */
-    show({ speeds }: Frame, rho: number) {
-      const mean = speeds.reduce((sum, v) => sum + v, 0) / speeds.length
-      speed.textContent = t.speed(mean)
-      kmh.textContent = t.kmh(mean)
-      flow.textContent = t.flow(mean * rho)
-      density.textContent = t.density(rho)
+    show({ traffic }: Frame) {
+      speed.textContent = t.speed(traffic.mean_speed)
+      kmh.textContent = t.kmh(traffic.mean_speed)
+      flow.textContent = t.flow(traffic.flow)
+      density.textContent = t.density(traffic.density)
     },
   }
 }
@@ -80,8 +78,7 @@ export function ringView(session: Session, transport: HTMLElement): HTMLElement 
   })
   session.on('watch', redraw)
   session.on('frame', frame => {
-    const { vehicles, length } = session.snapshot.scenario
-    middle.show(frame, vehicles / length)
+    middle.show(frame)
     redraw()
   })
   return section

@@ -4,7 +4,7 @@ import { valueOf } from '../../app/parameters'
 import type { Session } from '../../app/session'
 import { frame } from '../../charts/axes'
 import { keys } from '../../charts/keys'
-import type { Curves, Plane, Snapshot, Verdict } from '../../core/protocol'
+import type { Curves, StabilityDiagram, Snapshot, StabilitySummary } from '../../core/protocol'
 import { text } from '../../text'
 import { drawing, el, style } from '../../ui/dom'
 import { type Picture, drawDiagram } from './diagram_drawing'
@@ -61,19 +61,19 @@ function elements(changed: () => void) {
 /** Number of the lane, from 1, where there are several. */
 const laneOf = ({ scenario, verdict }: Snapshot) => (scenario.lanes > 1 ? verdict.lane : null)
 const oneLaneStart = ({ scenario }: Snapshot) => scenario.start.startsWith('one-lane')
-const stateOf = ({ stable }: Verdict) => (stable === null ? '' : stable ? t.stable : t.unstable)
+const stateOf = ({ stable }: StabilitySummary) => (stable === null ? '' : stable ? t.stable : t.unstable)
 
 /** A sentence where drivers differ, else empty. */
-const differOf = ({ verdict }: Snapshot) => (verdict.alike ? '' : ` ${t.alike}`)
+const differOf = ({ verdict }: Snapshot) => (verdict.homogeneous ? '' : ` ${t.alike}`)
 
 function entitle(title: HTMLElement, handle: HTMLElement, snapshot: Snapshot): void {
   const lane = laneOf(snapshot)
-  title.textContent = snapshot.verdict.alike ? t.title : t.titleAlike
+  title.textContent = snapshot.verdict.homogeneous ? t.title : t.titleAlike
   title.title = handle.title = (lane === null ? t.hint : t.hintLanes(lane, !oneLaneStart(snapshot))) + differOf(snapshot)
 }
 
 /** The axes reach to the last number of vehicles of the curves, and over a reaction time (s) and its surroundings. */
-const endsOf = (data: Plane | null, delay: number): Ends => ({
+const endsOf = (data: StabilityDiagram | null, delay: number): Ends => ({
   vehicles: data?.curves.vehicles.at(-1) ?? 133,
   delay: Math.max(HIGHEST, Math.ceil(delay * 2.2) / 2),
 })
@@ -103,7 +103,7 @@ function placeHandle(handle: HTMLElement, { x, y, ends }: Layout, { vehicles, de
 }
 
 /** `preview` shows the stability summary for another place, or with null that of the run. */
-export function diagramView(session: Session, preview: (summary: Verdict | null) => void) {
+export function diagramView(session: Session, preview: (summary: StabilitySummary | null) => void) {
   const reactionTime = session.start.parameters.find(p => p.name === 'reaction_time')!
   const show = () => {
     if (!session.snapshot) return
@@ -112,7 +112,7 @@ export function diagramView(session: Session, preview: (summary: Verdict | null)
     void request()
   }
   const { element, canvas, handle, lines, title, shading, every } = elements(show)
-  let data: Plane | null = null
+  let data: StabilityDiagram | null = null
   /** Critical reaction times of the single modes, and what they were computed for. */
   let modes: Float64Array = new Float64Array()
   let modesOf = ''
@@ -161,7 +161,7 @@ export function diagramView(session: Session, preview: (summary: Verdict | null)
     showProgress()
     if (every.checked && of !== modesOf) {
       modesOf = of
-      modes = await session.client.ask('planeModes', { steps })
+      modes = await session.client.ask('diagramModes', { steps })
       redraw()
     }
   }
@@ -211,7 +211,7 @@ export function diagramView(session: Session, preview: (summary: Verdict | null)
   return {
     element,
     /** Shows other curves. */
-    of(next: Plane) {
+    of(next: StabilityDiagram) {
       data = next
       show()
     },

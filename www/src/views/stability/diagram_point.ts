@@ -2,7 +2,7 @@
 // the place where it is; when it is let go, N and Δ are set as the sliders set them.
 import type { Session } from '../../app/session'
 import { decimals } from '../../text/format'
-import type { Verdict } from '../../core/protocol'
+import type { StabilitySummary } from '../../core/protocol'
 import { type Layout, type Point, pointAt } from './diagram_layout'
 
 /** Time after the last key until the point is let go, ms: several keys in a row make one setting. */
@@ -19,7 +19,7 @@ export interface Diagram {
   /** The point has moved. */
   moved(): void
   /** The summary for the place where it is held. */
-  foreseen(summary: Verdict): void
+  foreseen(summary: StabilitySummary): void
   /** It is not held any more. */
   released(): void
 }

@@ -1,6 +1,6 @@
 // Growth rate of each mode as measured in the run, and as theory predicts it.
 import { drawing, el, style } from '../../ui/dom'
-import type { ModesGrowth, Roots } from '../../core/protocol'
+import type { ModalGrowth, LaneRoots } from '../../core/protocol'
 import { text } from '../../text'
 import { FONT, axes, frame, labelWidth, roundSteps, say, ticks, word } from '../../charts/axes'
 import { clipped, line } from '../../charts/canvas'
@@ -8,19 +8,18 @@ import { clipped, line } from '../../charts/canvas'
 const t = text.modes
 
 /** A sentence on the measurement of the mode that grows fastest in theory. */
-function status(measured: ModesGrowth, alike: boolean, fastest: number | null, time: number, lanes: number): string {
+function status(measured: ModalGrowth, alike: boolean, fastest: number | null, time: number, lanes: number): string {
   if (fastest === null) return ''
   if (measured.modes.length === 0 && time >= measured.starts) return lanes > 1 ? t.changing : t.nothing
   const lead = measured.modes.find(m => m.mode === fastest)
   if (!lead) return time < measured.starts ? t.waiting(measured.starts) : ''
   if (lead.from === null || lead.to === null) {
     if (time < measured.starts) return t.waiting(measured.starts)
-    return lead.ended_by === 'sank into rounding' ? t.quiet : t.large
+    return lead.ended_by === 'sank_into_rounding' ? t.quiet : t.large
   }
   // What the waves' size may have changed, and two standard errors.
   const error = lead.nonlinear_bound === null || lead.standard_error === null ? null : lead.nonlinear_bound + 2 * lead.standard_error
-  const ended = { 'end of the run': t.linear(lead.from, error), 'left the linear regime': t.left(lead.to, error), disturbed: t.disturbed(lead.to), 'sank into rounding': t.faded(lead.to) }[lead.ended_by]
-  return [ended ?? '', alike ? '' : t.differ].join(' ').trim()
+  return [t.ended[lead.ended_by](lead.from, lead.to, error), alike ? '' : t.differ].join(' ').trim()
 }
 
 /** Theory: a line through circles at these places (px). */
@@ -76,17 +75,15 @@ export function modesView() {
     el('div', { class: 'keys marks' }, el('span', { class: 'theory', title: t.differHint }, t.predicted), el('span', { class: 'measured-mark', title: t.bound }, t.measured)),
     said,
   )
-  let theory: Roots | null = null
-  let measured: ModesGrowth | null = null
-  let leader = 1
+  let theory: LaneRoots | null = null
+  let measured: ModalGrowth | null = null
   const redraw = drawing(canvas, (c, w, h) => {
     if (!theory || !measured) return
     if (theory.modes.length === 0) {
       say(c, t.none, w, h)
       return
     }
-    // As many modes as the core measures when it measures.
-    const count = measured.modes.length || Math.min(Math.max(...theory.modes), Math.min(40, Math.max(10, 2 * leader)))
+    const count = measured.followed
     const predicted = theory.modes.flatMap((mode, k) => {
       const rate = theory!.growth_per_s[k]
       return mode <= count && typeof rate === 'number' ? [{ mode, rate }] : []
@@ -117,10 +114,9 @@ export function modesView() {
   return {
     element,
     redraw,
-    show(roots: Roots, growth: ModesGrowth, fastest: number | null, time: number, lanes: number) {
+    show(roots: LaneRoots, growth: ModalGrowth, fastest: number | null, time: number, lanes: number) {
       theory = roots
       measured = growth
-      leader = fastest ?? 1
       const alike = roots.equal_drivers
       const list = growth.modes.flatMap(m => (m.rate === null ? [] : [t.one(m.mode, m.rate, m.predicted)]))
       canvas.setAttribute('aria-label', t.describe(list.join('; ')))

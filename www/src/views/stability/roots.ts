@@ -1,7 +1,7 @@
 // The characteristic roots in the complex plane. A mode grows if its root lies right of the imaginary axis. Both axes are
 // logarithmic away from 0, so that a root close to the imaginary axis differs visibly from one on it.
 import { drawing, el, style } from '../../ui/dom'
-import type { Roots } from '../../core/protocol'
+import type { LaneRoots } from '../../core/protocol'
 import { text } from '../../text'
 import { FONT, axes, frame, say, ticks, word } from '../../charts/axes'
 import { line } from '../../charts/canvas'
@@ -27,7 +27,7 @@ export function rootsView() {
       el('span', { class: 'next' }, t.next),
     ),
   )
-  let roots: Roots | null = null
+  let roots: LaneRoots | null = null
   const redraw = drawing(canvas, (c, w, h) => {
     if (!roots) return
     const f = frame(w, h, 30)
@@ -93,7 +93,7 @@ export function rootsView() {
   return {
     element,
     redraw,
-    show(next: Roots) {
+    show(next: LaneRoots) {
       roots = next
       const rates = next.growth_per_s.map(rate => rate ?? Number.NEGATIVE_INFINITY)
       const right = next.modes.filter((_, k) => rates[k]! > 0)

@@ -1,6 +1,6 @@
 // The stability tab: the stability diagram, the characteristic roots, and the growth of each mode by theory and in the run.
 import type { Session } from '../../app/session'
-import type { ModesGrowth, Roots, Verdict } from '../../core/protocol'
+import type { ModalGrowth, LaneRoots, StabilitySummary } from '../../core/protocol'
 import { el } from '../../ui/dom'
 import { diagramView } from './diagram'
 import { modesView } from './modes'
@@ -11,7 +11,7 @@ import './stability.css'
 const MEASURE = 400
 
 /** `preview` shows the stability summary for another place, or with null that of the run. */
-export function stabilityView(session: Session, preview: (summary: Verdict | null) => void): HTMLElement {
+export function stabilityView(session: Session, preview: (summary: StabilitySummary | null) => void): HTMLElement {
   const diagram = diagramView(session, preview)
   const roots = rootsView()
   const modes = modesView()
@@ -20,8 +20,8 @@ export function stabilityView(session: Session, preview: (summary: Verdict | nul
 
   let curvesOf = ''
   let rootsOf = ''
-  let theory: Roots | null = null
-  let measured: ModesGrowth | null = null
+  let theory: LaneRoots | null = null
+  let measured: ModalGrowth | null = null
   const showModes = () => {
     if (theory && measured && session.frame) modes.show(theory, measured, session.snapshot.verdict.mode, session.frame.time, session.snapshot.scenario.lanes)
   }
@@ -31,10 +31,10 @@ export function stabilityView(session: Session, preview: (summary: Verdict | nul
     const { scenario, driver, verdict, changes } = session.snapshot
     const { length, lanes, time_step, start, vehicles, exceptions } = scenario
     const road = [length, lanes, time_step, start, vehicles, driver]
-    const curves = JSON.stringify([road, exceptions, verdict.lane, verdict.vehicles, verdict.alike])
+    const curves = JSON.stringify([road, exceptions, verdict.lane, verdict.vehicles, verdict.homogeneous])
     if (curves !== curvesOf) {
       curvesOf = curves
-      diagram.of(await session.client.ask('plane', {}))
+      diagram.of(await session.client.ask('diagram', {}))
     }
     const lane = JSON.stringify([road, exceptions, verdict, changes])
     if (lane !== rootsOf) {
