@@ -216,7 +216,7 @@ fn all_events(seed: u64) -> Vec<Event> {
 
 proptest! {
     #![proptest_config(config(300, 14))]
-    /// Many steps of equal drivers are taken at once where nothing else happens. Taken one by one, they are the same: with
+    /// Where nothing but driving happens, many steps of homogeneous drivers are computed at once. Computed one by one they are the same: with
     /// actions in between, with pauses, up to the step of a collision.
     #[test]
     fn steps_at_once_are_the_same_steps(
@@ -256,7 +256,7 @@ proptest! {
 }
 
 #[test]
-fn the_same_seed_gives_the_same_events_another_others() {
+fn equal_seeds_give_equal_events_and_different_seeds_different_ones() {
     let events: Vec<_> = (0..8).map(all_events).collect();
     for (seed, one) in events.iter().enumerate() {
         assert_eq!(*one, all_events(seed as u64));
@@ -265,7 +265,7 @@ fn the_same_seed_gives_the_same_events_another_others() {
 }
 
 #[test]
-fn staggered_equal_drivers_never_change_lane() {
+fn staggered_homogeneous_drivers_never_change_lane() {
     for lanes in 2..=5 {
         for per_lane in [1, 7, 10, 12] {
             for reaction_time in [0.0, 0.5] {
@@ -289,7 +289,7 @@ fn staggered_equal_drivers_never_change_lane() {
 }
 
 #[test]
-fn uniform_equal_drivers_side_by_side_are_content() {
+fn homogeneous_drivers_exactly_alongside_are_never_frustrated() {
     for lanes in 2..=4 {
         for per_lane in [3, 7, 25, 30] {
             let vehicles = lanes * per_lane;

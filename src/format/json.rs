@@ -1,9 +1,18 @@
-//! JSON: a tree of what was read or is to be written, a reader, and the one way to write.
+//! JSON: values as a tree, a reader, and the only writer.
 //!
-//! Scenarios and measurements are read through it, by name. It is small because the page loads it: for a tree,
-//! serde_json has a second way to read numbers and one to write them, each with a table of powers of ten as large as
-//! the standard library's. So here numbers are read and written by the standard library, as everywhere else in a
-//! file: with the fewest digits that read back to the same bits.
+//! Scenarios and measurements are read through it. It is here because of its size, which the page loads: serde_json brings
+//! a reader and a writer of numbers of its own, each with a table of powers of ten as large as the standard library's. Here
+//! the standard library reads and writes the numbers, as in every other text of the project: with the fewest digits that
+//! read back to the same bits.
+//!
+//! ```
+//! use ringroad::format::json::Json;
+//!
+//! let json: Json = r#"{"b": [1.50, null], "a": "x"}"#.parse().unwrap();
+//! assert_eq!(json.to_string(), r#"{"a":"x","b":[1.5,null]}"#); // names in their order
+//! let broken = "[1,".parse::<Json>().unwrap_err();
+//! assert_eq!(broken.to_string(), "the text ends at line 1 column 4");
+//! ```
 
 use crate::error::Error;
 use crate::format::json_writer::Writer;
@@ -102,7 +111,7 @@ impl From<bool> for Json {
     }
 }
 impl From<f64> for Json {
-    /// What is no number (NaN), and what JSON has no number for (infinities), becomes `null`.
+    /// NaN and infinities, for which JSON has no number, become `null`.
     fn from(value: f64) -> Self {
         if value.is_finite() { Self::Number(value) } else { Self::Null }
     }
@@ -178,7 +187,7 @@ impl fmt::Display for Json {
 
 // ---- Reading ---------------------------------------------------------------------------------------------------
 
-/// Why a text is no JSON, and where.
+/// Why a text cannot be read as JSON, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Broken {
     /// What is wrong.
@@ -195,7 +204,7 @@ impl fmt::Display for Broken {
     }
 }
 
-/// Lists and objects may hold one another as deep as this.
+/// The most lists and objects that may stand inside one another.
 const DEPTH: usize = 100;
 
 impl FromStr for Json {
@@ -237,7 +246,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Passes a byte, if it is the next.
+    /// Goes past the byte if it is the next one, and says whether it was.
     fn take(&mut self, byte: u8) -> bool {
         let found = self.peek() == Some(byte);
         self.at += usize::from(found);
@@ -310,7 +319,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Passes digits; at least one.
+    /// Goes past digits, of which there must be one or more.
     fn digits(&mut self) -> Result<(), &'static str> {
         let start = self.at;
         while self.peek().is_some_and(|b| b.is_ascii_digit()) {
@@ -322,7 +331,7 @@ impl Reader<'_> {
     fn number(&mut self) -> Result<Json, &'static str> {
         let start = self.at;
         self.take(b'-');
-        // A number with more than one digit begins with another than 0.
+        // Only the number 0 itself begins with the digit 0.
         if !self.take(b'0') {
             self.digits()?;
         }
@@ -388,7 +397,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_reads_back() {
+    fn written_json_reads_back() {
         for json in [
             "null",
             "[]",
@@ -406,9 +415,9 @@ mod tests {
         assert_eq!(text(&[f64::NAN, 0.5]), "[null,0.5]");
     }
 
-    /// The same as by another reader, which is not loaded by the page.
+    /// The other reader is that of serde_json, which the page does not load.
     #[test]
-    fn it_reads_what_serde_json_reads_and_refuses_what_that_refuses() {
+    fn texts_are_read_or_refused_as_by_serde_json() {
         for json in [
             r#" { "b" : 1.50 , "a" : [ 1E2 , -0.5e-3 , 0 ] , "b" : 2 } "#,
             r#""\u00e9\ud834\udd1e\b\f\/""#,
@@ -451,7 +460,7 @@ mod tests {
     }
 
     #[test]
-    fn a_refusal_says_where() {
+    fn a_refusal_names_line_and_column() {
         let broken = "{\n  \"a\": x}".parse::<Json>().unwrap_err();
         assert_eq!(broken.to_string(), "no value at line 2 column 8");
         assert_eq!("{".parse::<Json>().unwrap_err().to_string(), "no name at line 1 column 2");

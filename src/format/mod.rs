@@ -1,4 +1,4 @@
-//! What files and messages are written in: JSON, and tables as CSV.
+//! The formats of files and messages: [`json`], and [`table`] for tables as CSV.
 
 pub mod json;
 mod json_writer;

@@ -2,7 +2,20 @@
 //!
 //! A file begins with lines that start with `#`: what made it (see [`crate::measurement`]), then what every column means;
 //! then one row of column names, then the rows. A number is written with the fewest digits that read back to the same
-//! bits; what does not exist (no headway measured yet, say) is an empty field. Text is quoted after RFC 4180.
+//! bits; a value that does not exist (a headway that was not measured yet, say) is an empty field. Text is quoted as RFC 4180
+//! says.
+//!
+//! ```
+//! use ringroad::format::table::{Column, Table};
+//!
+//! let table = Table::new(vec![
+//!     Column::whole("vehicle", "", "number of the vehicle", vec![1, 2]),
+//!     Column::float("speed_m_per_s", "m/s", "its speed", vec![12.5, f64::NAN]),
+//! ]);
+//! let mut csv = String::new();
+//! table.write_body(&mut csv);
+//! assert!(csv.ends_with("vehicle,speed_m_per_s\n1,12.5\n2,\n"));
+//! ```
 
 use std::fmt::Write as _;
 
@@ -53,7 +66,7 @@ impl Column {
     pub fn text(name: impl Into<String>, meaning: impl Into<String>, values: Vec<String>) -> Self {
         Self { name: name.into(), unit: "", meaning: meaning.into(), values: Values::Text(values) }
     }
-    /// Number of values.
+    /// Number of values: the rows of its table.
     pub fn len(&self) -> usize {
         match &self.values {
             Values::Float(v) => v.len(),
@@ -61,7 +74,7 @@ impl Column {
             Values::Text(v) => v.len(),
         }
     }
-    /// Whether there is none.
+    /// Whether it has no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -77,7 +90,7 @@ impl Table {
     /// A table of these columns.
     ///
     /// # Panics
-    /// If the columns differ in length: a mistake in a probe.
+    /// If the columns differ in length, which is a mistake of the caller.
     pub fn new(columns: Vec<Column>) -> Self {
         assert!(columns.windows(2).all(|w| w[0].len() == w[1].len()), "columns of a table differ in length");
         Self { columns }
@@ -93,7 +106,7 @@ impl Table {
         self.columns.first().map_or(0, Column::len)
     }
 
-    /// The numbers of the column of that name.
+    /// The values of the column of that name; `None` if it does not exist or does not hold such numbers.
     pub fn floats(&self, name: &str) -> Option<&[f64]> {
         self.columns.iter().find(|c| c.name == name).and_then(|c| match &c.values {
             Values::Float(v) => Some(v.as_slice()),
@@ -101,7 +114,7 @@ impl Table {
         })
     }
 
-    /// The whole numbers of the column of that name.
+    /// The values of the column of that name; `None` if it does not exist or does not hold whole numbers.
     pub fn wholes(&self, name: &str) -> Option<&[u64]> {
         self.columns.iter().find(|c| c.name == name).and_then(|c| match &c.values {
             Values::Whole(v) => Some(v.as_slice()),
@@ -109,7 +122,7 @@ impl Table {
         })
     }
 
-    /// The words of the column of that name.
+    /// The values of the column of that name; `None` if it does not exist or does not hold text.
     pub fn texts(&self, name: &str) -> Option<&[String]> {
         self.columns.iter().find(|c| c.name == name).and_then(|c| match &c.values {
             Values::Text(v) => Some(v.as_slice()),
@@ -185,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn text_is_quoted_and_what_does_not_exist_is_empty() {
+    fn text_is_quoted_and_missing_values_are_empty() {
         let csv = body(&Table::new(vec![
             Column::text("note", "a, b", vec!["plain".into(), "say \"a,b\"".into()]),
             Column::float("x", "", "x", vec![f64::NAN, 2.0]),

@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_reads_back() {
+    fn written_values_read_back() {
         let vary: ParameterValues = "reaction_time=0.1,1e-9,3:4:0.3".parse().unwrap();
         assert_eq!(vary.to_string().parse::<ParameterValues>().unwrap(), vary);
         assert_eq!(
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_named() {
+    fn refusals_name_the_wrong_part() {
         for (text, named) in [
             ("reaction-time", "NAME=VALUES"),
             ("colour=1", "“colour”"),

@@ -229,7 +229,7 @@ impl DriverField {
 pub(crate) struct Lookup {
     /// What the refusal says that the name was for.
     pub of: &'static str,
-    /// Which parameters are looked up: every one, those of the road, or those of drivers.
+    /// Which parameters are looked up.
     pub among: Among,
     /// Names are spelled as in JSON, with underscores only. Elsewhere they have hyphens or underscores.
     pub as_in_json: bool,
