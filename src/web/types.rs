@@ -650,7 +650,8 @@ mod tests {
     use std::path::Path;
     use ts_rs::{Config, TS};
 
-    /// A scenario in the core's JSON form. [`Scenario`] writes it itself; this declares its fields for the page.
+    // [`Scenario`] writes its JSON itself; this declares the fields for the page, and a test reads scenarios into it.
+    /// A scenario in the core's JSON form.
     #[allow(dead_code, reason = "the fields are there to be declared and to be read into")]
     #[derive(serde::Deserialize, TS)]
     #[serde(deny_unknown_fields)]

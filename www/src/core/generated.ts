@@ -128,7 +128,7 @@ next: string,
 scenario: Scenario, };
 
 /**
- * A scenario in the core's JSON form. [`Scenario`] writes it itself; this declares its fields for the page.
+ * A scenario in the core's JSON form.
  */
 export type Scenario = { 
 /**
