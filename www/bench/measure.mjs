@@ -90,10 +90,10 @@ export function batch({ scenario }, runs, steps) {
 const SLICE = 6
 
 /**
- * The map of the largest growth rate, N = 2 … 133 by 200 reaction times, in steps of 0.01 s; and the curves of the plane,
+ * The map of the largest growth rate, N = 2 … 133 by 200 reaction times, in steps of 0.01 s; and the curves of the diagram,
  * every mode, in steps and in continuous time. Milliseconds: the fastest of some repetitions, and its longest slice.
  */
-export function plane() {
+export function diagram() {
   const lab = new Lab()
   const timed = run => {
     const before = performance.now()

@@ -28,14 +28,14 @@ function row(label, { wasm, javascript }, here) {
   print([label, number(wasm), number(javascript), number(javascript && javascript / wasm, 1), number(here), number(here && wasm / here, 1)])
 }
 
-async function theory(plane) {
-  const label = 'stability plane'
+async function theory(diagram) {
+  const label = 'stability diagram'
   if (!label.includes(pattern)) return
-  const { map, curves } = await plane()
+  const { map, curves } = await diagram()
   console.log(`${label}, N = 2 … 133: map of growth rates ${number(map.total, 0)} ms, longest slice ${number(map.longest, 1)} ms; every curve ${number(curves, 1)} ms`)
 }
 
-async function table(title, step, batch, plane) {
+async function table(title, step, batch, diagram) {
   console.log(`\n${title}; ns per vehicle-update`)
   print(['', 'wasm', 'JavaScript', 'ratio', 'native', 'ratio'])
   for (const one of cases) {
@@ -45,7 +45,7 @@ async function table(title, step, batch, plane) {
   }
   const label = `${RUNS} runs of N = 50`
   if (label.includes(pattern)) row(label, await batch(cases[0], RUNS, STEPS))
-  await theory(plane)
+  await theory(diagram)
 }
 
 const processors = cpus()
@@ -53,7 +53,7 @@ console.log(`${processors[0].model}, ${processors.length} cores, ${new Date().to
 console.log('JavaScript: one lane of equal drivers in plain JavaScript. Native: vectors of 128 bits, from the last `cargo bench`.')
 
 measure.load(readFileSync(at('../pkg/ringroad_bg.wasm')))
-await table(`Node ${process.versions.node}`, measure.step, measure.batch, measure.plane)
+await table(`Node ${process.versions.node}`, measure.step, measure.batch, measure.diagram)
 
 const server = await serve(at('..'))
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] })
@@ -66,7 +66,7 @@ try {
     `Chromium ${browser.version()}`,
     one => page.evaluate(c => window.measure.step(c), one),
     (...all) => page.evaluate(([c, runs, steps]) => window.measure.batch(c, runs, steps), all),
-    () => page.evaluate(() => window.measure.plane()),
+    () => page.evaluate(() => window.measure.diagram()),
   )
 } finally {
   await browser.close()

@@ -1,12 +1,12 @@
-// What the laboratory weighs on its way: page, script, style and WebAssembly, everything that a browser fetches to
-// open it, gzipped. What the paper's figures add is fetched by who opens them, and is shown beside it.
+// The size of the laboratory's first load, gzipped: every file that a browser fetches to open it. The files that the paper's figures
+// add are fetched when the figures are opened; they are listed, too.
 import { readFileSync } from 'node:fs'
 import { fileURLToPath } from 'node:url'
 import { gzipSync } from 'node:zlib'
 import { chromium } from 'playwright-core'
 import { serve } from '../tests/serve.mjs'
 
-/** What the laboratory may weigh at most, kB. */
+/** The largest size that is allowed, kB. */
 const MOST = 200
 const dist = fileURLToPath(new URL('../../dist/', import.meta.url))
 

@@ -1,4 +1,4 @@
-// A static server for tests: a folder over http, with headers of one's choice.
+// A static server for tests: a folder over http, with headers that the caller chooses.
 import { createReadStream, existsSync, statSync } from 'node:fs'
 import { createServer } from 'node:http'
 import { extname, join, normalize } from 'node:path'

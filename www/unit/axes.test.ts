@@ -1,3 +1,4 @@
+// The numbers at the axes of drawings.
 import { expect, test } from 'vitest'
 import { labelWidth, labels, roundSteps } from '../src/charts/axes'
 

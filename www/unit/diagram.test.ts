@@ -1,3 +1,4 @@
+// The words in the stability diagram and the colours of its growth rates.
 import { expect, test } from 'vitest'
 import { WORD, spot } from '../src/charts/axes'
 import { TO, colour, rateAt } from '../src/views/stability/growth_map'

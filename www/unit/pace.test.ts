@@ -1,3 +1,4 @@
+// How many steps playback asks for.
 import { expect, test } from 'vitest'
 import { Pace } from '../src/app/pace'
 

@@ -1,3 +1,4 @@
+// Reading values off the picture of a figure.
 import { describe, expect, it } from 'vitest'
 import { significant } from '../src/text/significant'
 import type { Field } from '../src/core/protocol'

@@ -1,3 +1,4 @@
+// The session against a client that answers without a core.
 import { beforeEach, expect, test, vi } from 'vitest'
 import { type Client, Cancelled, Refusal } from '../src/core/client'
 import { append } from '../src/app/series'

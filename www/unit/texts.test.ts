@@ -1,3 +1,4 @@
+// Numbers, actions, links and the stability summary in words.
 import { expect, test } from 'vitest'
 import { readHash } from '../src/app/url'
 import { exactly, fixed, span } from '../src/text/format'

@@ -1,3 +1,4 @@
+// Drawing a column of values as a line.
 import { expect, test } from 'vitest'
 import { before, most, trace } from '../src/charts/trace'
 
