@@ -133,10 +133,10 @@ mod tests {
         for z in grid() {
             for k in -6..=6 {
                 let w = lambert_w(k, z);
-                // Beside the cut, W₋₁ and W₁ are real up to rounding, and ln w is πi or −πi by its whim.
-                let beside_the_cut = k.abs() == 1 && w.re < -1.0 && w.im.abs() < 1e-14;
+                // On the cut, W₋₁ and W₁ are real up to rounding, and rounding decides whether ln w is πi or −πi.
+                let on_the_cut = k.abs() == 1 && w.re < -1.0 && w.im.abs() < 1e-14;
                 let there = residual(k, z, w);
-                let residual = if beside_the_cut { there.min(residual(0, z, w)) } else { there };
+                let residual = if on_the_cut { there.min(residual(0, z, w)) } else { there };
                 assert!(residual < 1e-13 * (1.0 + norm(w)), "W_{k}({z}) = {w}: {residual:e}");
             }
         }

@@ -11,12 +11,12 @@
 //! | [`Generator::exponential`] | −ln(1 − u) of such a uniform u, by `libm` | 64 a number |
 //! | [`Generator::coin`] | `rand`'s `Bernoulli` | 64 a draw |
 //! | [`Generator::below`] | `rand`'s `Uniform` for `u64` (Lemire's method, 2019, without bias) | 64 a draw, more after a rejection |
-//! | [`Generator::choose`] | `rand::seq::index::sample` | 32 a draw |
+//! | [`Generator::choose`] | `rand`'s `SliceRandom::partial_shuffle` (Fisher–Yates) | 32 for one draw or several |
 //!
-//! No draw has the width of a pointer. `rand::seq::index::sample` takes `usize` arguments, but draws 32-bit numbers for
-//! every length below 2³², on platforms of 32 and of 64 bits; longer ones are refused here. Its choice between
-//! algorithms depends on the two arguments alone. `rand` changes such values with a new minor version only (0.10 to
-//! 0.11); a test holds the values of this one.
+//! No draw has the width of a pointer. `partial_shuffle` works on slices, but draws 32-bit numbers for every length
+//! below 2³² − 1, on platforms of 32 and of 64 bits; longer ones are refused here. (`rand::seq::index::sample` would do as
+//! well; its three algorithms would add 2.4 kB, compressed, to the page's first module.) `rand` changes such values with a
+//! new minor version only (0.10 to 0.11); a test holds the values of this one.
 //!
 //! ```
 //! use ringroad::numerics::random::{Generator, Stream};
@@ -30,6 +30,7 @@
 //! ```
 
 use rand::distr::{Distribution, Uniform};
+use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -96,12 +97,16 @@ impl Generator {
     /// `count` different indices below `n`, ascending, every set equally likely.
     ///
     /// # Panics
-    /// If `count` > `n`, or `n` does not fit into 32 bits.
+    /// If `count` > `n`, or `n` ≥ 2³² − 1.
     pub fn choose(&mut self, count: usize, n: usize) -> Vec<usize> {
-        assert!(u32::try_from(n).is_ok(), "{n} indices: longer lists would be drawn with another width");
-        let mut chosen = rand::seq::index::sample(&mut self.0, n, count).into_vec();
-        chosen.sort_unstable();
-        chosen
+        assert!(count <= n && n < u32::MAX as usize, "{count} of {n} indices");
+        let mut indices: Vec<u32> = (0..n as u32).collect();
+        let (drawn, _) = indices.partial_shuffle(&mut self.0, count);
+        let mut chosen = vec![false; n];
+        for &k in &*drawn {
+            chosen[k as usize] = true;
+        }
+        (0..n).filter(|&k| chosen[k]).collect()
     }
 }
 
@@ -148,8 +153,8 @@ mod tests {
         }
     }
 
-    /// Every index is chosen equally often, within five standard errors, by each algorithm of the sampler: few of
-    /// many, many of few, and a large share of a long list.
+    /// Every index is chosen equally often, within five standard errors: few of many, many of few, and a small share of a
+    /// long list.
     #[test]
     fn every_index_is_equally_likely() {
         for (count, n, draws) in [(3, 30, 20_000_u32), (20, 30, 20_000), (170, 60_000, 3_000)] {
@@ -181,7 +186,7 @@ mod tests {
         assert_eq!(draw.uniform(), (words[0] >> 11) as f64 / 9_007_199_254_740_992.0);
         assert_eq!(draw.coin(), words[1] >> 63 == 1);
         assert_eq!(draw.below(1000), ((u128::from(words[2]) * 1000) >> 64) as u64);
-        assert_eq!(generator().choose(5, 20), [0, 4, 14, 16, 17]);
+        assert_eq!(generator().choose(5, 20), [2, 7, 8, 10, 18]);
         assert_eq!(generator().choose(5, 1_000_000), [50_913, 221_102, 851_909, 890_463, 907_987]);
     }
 }

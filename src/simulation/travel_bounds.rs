@@ -2,7 +2,7 @@
 //!
 //! In every step the smallest and the largest distance that a vehicle has moved are known. Their sums bound the motion of
 //! every vehicle: one that was h ahead of another cannot be reached before the sum of (largest − smallest) is h. So
-//! passes and collisions need to be looked for only where such a sum allows them.
+//! passes and collisions need to be looked for only where such a sum allows one.
 
 /// Distances summed over the steps, m.
 #[derive(Clone, Copy, Debug, Default)]
