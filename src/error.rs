@@ -50,17 +50,26 @@ pub struct Refusal {
     pub allowed: Cow<'static, str>,
 }
 
+impl Refusal {
+    /// One function for every type of value: compiled once, it keeps the page's module small.
+    #[inline(never)]
+    fn new(field: Cow<'static, str>, value: &dyn fmt::Display, allowed: Cow<'static, str>) -> Self {
+        Self { field, value: value.to_string(), allowed }
+    }
+}
+
 /// A function for each variant that refuses `value` for `field`.
 macro_rules! constructors {
     ($($(#[$doc:meta])* $name:ident => $variant:ident,)*) => {
         impl Error {
             $($(#[$doc])*
+            #[inline]
             pub fn $name(
                 field: impl Into<Cow<'static, str>>,
                 value: impl fmt::Display,
                 allowed: impl Into<Cow<'static, str>>,
             ) -> Self {
-                Self::$variant(Refusal { field: field.into(), value: value.to_string(), allowed: allowed.into() })
+                Self::$variant(Refusal::new(field.into(), &value, allowed.into()))
             })*
 
             /// What was refused and what is allowed.

@@ -436,16 +436,6 @@ impl Measurement {
             Self::Vehicles { every } => Box::new(Vehicles::new(steps(every))),
             Self::Overview { every } => Box::new(Overview::new(scenario, steps(every))),
             Self::Outcome {} => Box::new(Outcome::new(scenario)),
-            _ => return self.probe_of_page(scenario),
-        })
-    }
-
-    /// The same for the tables that the page exports; any other is refused, so that the page's WebAssembly module contains
-    /// these probes only.
-    pub fn probe_of_page(&self, scenario: &Scenario) -> Result<Box<dyn Probe>, Error> {
-        self.validate(scenario)?;
-        let steps = |seconds: f64| scenario.steps(seconds);
-        Ok(match self.resolved(scenario) {
             Self::Trajectories { every } => Box::new(Trajectories::new(steps(every))),
             Self::Speeds { every, vehicles } => {
                 Box::new(Speeds::new(steps(every), &vehicles.unwrap_or_default()))
@@ -468,11 +458,6 @@ impl Measurement {
             )),
             Self::Events {} => Box::new(Events::default()),
             Self::Lanes { every } => Box::new(Lanes::new(steps(every))),
-            _ => {
-                let allowed = "trajectories, speeds, speed-map, flow-map, flow, growth, events or lanes; \
-                               the command makes every table";
-                return Err(Error::conflict("table", quoted(self.name()), allowed));
-            }
         })
     }
 

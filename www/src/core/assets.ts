@@ -15,5 +15,5 @@ export const wasmBytes = async (module: keyof typeof urls): Promise<ArrayBuffer>
 /** A worker that runs the page's own script. */
 export const startWorker = (): Worker => new Worker(import.meta.url, { type: 'module' })
 
-/** The module of the paper's figures, loaded when it is first used. */
+/** The second module (the paper's figures, the export of tables), loaded when it is first used. */
 export const figures = () => import('./figures')

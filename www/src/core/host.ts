@@ -1,7 +1,7 @@
 // Answers the page's questions with the compiled core, in a worker or on the main thread. Long computations are cut
 // into slices, with a pause after each, so that other questions (and, on the main thread, the page) are served meanwhile.
-import { Export, Lab, initSync, start } from '../../pkg/ringroad.js'
-import { figures } from './assets'
+import { Lab, initSync, start } from '../../pkg/ringroad.js'
+import { figures, wasmBytes } from './assets'
 import { Cancelled } from './client'
 import { type Frame, vehicleArrays } from './frame'
 import type { Answer, Ask, Name, Opened, Snapshot } from './protocol'
@@ -160,7 +160,9 @@ export class Host {
     reading: ({ column, bin }) => JSON.parse(this.#core.reading(column, bin)),
     csv: async ({ measurement }, progress) => {
       this.#cancelled = false
-      const run = new Export(this.#core.scenario_so_far(), measurement)
+      // As it is now, whatever comes while the module is loaded.
+      const scenario = this.#core.scenario_so_far()
+      const run = await (await figures()).exportOf(scenario, measurement, () => wasmBytes('figures'))
       try {
         for (;;) {
           const end = performance.now() + SLICE
