@@ -165,7 +165,7 @@ pub struct Snapshot {
     #[cfg_attr(test, ts(type = "Record<string, number>"))]
     pub driver: Json,
     /// What theory says of the ring as it is now.
-    pub verdict: StabilitySummary,
+    pub stability: StabilitySummary,
     /// Numbers (from 1) of the vehicles whose speeds are in the rows.
     pub watched: Vec<usize>,
     /// Seconds between two rows, and between two columns of the map.
@@ -176,14 +176,14 @@ pub struct Snapshot {
     pub flow_window: f64,
     /// Equilibrium speed with the vehicles spread evenly over all lanes, m/s.
     pub mean_equilibrium_speed: f64,
-    /// Counts what changed the verdict or the drivers; differs from a frame's when this snapshot is out of date.
+    /// Counts what changed the stability summary or the drivers; differs from a frame's when this snapshot is out of date.
     pub changes: u64,
 }
 
 impl Snapshot {
     /// Of a run whose map has `columns` columns.
     pub fn of(live: &mut Live, columns: usize) -> Self {
-        let verdict = StabilitySummary::from(live.stability_summary());
+        let stability = StabilitySummary::from(live.stability_summary());
         let scenario = live.simulation().scenario();
         let settled = live.settled().driver;
         let mut driver = crate::format::json::Object::default();
@@ -196,7 +196,7 @@ impl Snapshot {
             scenario: scenario.tree(),
             link: link::format(scenario),
             driver: driver.into(),
-            verdict,
+            stability,
             watched: live.watched().iter().map(|j| j + 1).collect(),
             interval: live.interval(),
             map_window: columns as f64 * live.interval(),

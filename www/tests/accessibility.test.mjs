@@ -172,7 +172,7 @@ const boxes = () => {
       }
     }
   }
-  apart([...document.querySelectorAll('.card, #verdict, [data-view=lab] .top')].filter(seen))
+  apart([...document.querySelectorAll('.card, #summary, [data-view=lab] .top')].filter(seen))
   apart([...document.querySelectorAll('.stability section')].filter(seen))
   for (const e of [...document.querySelectorAll('.card :is(button, select, label)')].filter(seen)) {
     if (!e.closest('[role=tabpanel]') && e.getBoundingClientRect().bottom > e.closest('.card').getBoundingClientRect().bottom) faults.push(`${name(e)} hangs out of its card`)
@@ -248,7 +248,7 @@ for (const [width, height] of [
       await ready(page)
       for (let t = 0; t <= 300; t += 10) {
         await page.evaluate(t => window.ringroad.seek(t), t)
-        heights.add(await page.evaluate(() => document.querySelector('#verdict').offsetHeight))
+        heights.add(await page.evaluate(() => document.querySelector('#summary').offsetHeight))
       }
       const widths = new Set()
       for (const tab of await page.locator('[role=tab]').all()) {
@@ -257,7 +257,7 @@ for (const [width, height] of [
       }
       equal(widths.size, 1, `widths of the columns ${[...widths].join('; ')}`)
     }
-    equal(heights.size, 1, `heights of the verdict ${[...heights]}`)
+    equal(heights.size, 1, `heights of the stability summary ${[...heights]}`)
   })
 }
 

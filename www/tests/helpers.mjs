@@ -90,7 +90,7 @@ export async function playTo(at, time, playback = 100) {
 }
 
 export const positions = at => at.evaluate(() => Array.from(window.ringroad.frame.positions))
-export const verdict = at => at.evaluate(() => document.querySelector('#verdict').dataset.state)
+export const stability = at => at.evaluate(() => document.querySelector('#summary').dataset.state)
 export const snapshot = at => at.evaluate(() => window.ringroad.snapshot)
 
 /** The table of the run so far, as the page makes it. */

@@ -55,9 +55,9 @@ test('moves: both frames of the course page, each with its own link', async ({ o
     await handle.scrollIntoViewIfNeeded()
     const frame = await handle.contentFrame()
     await moves(frame, 'worker')
-    states.push(await frame.evaluate(() => document.querySelector('#verdict').dataset.state))
+    states.push(await frame.evaluate(() => document.querySelector('#summary').dataset.state))
   }
-  equal(states.join(), 'stable,unstable', 'verdicts of the two frames')
+  equal(states.join(), 'stable,unstable', 'stability of the two frames')
 })
 
 test('the frame that is shared is as high as README’s', async ({ open }) => {

@@ -1,5 +1,5 @@
 // The stability tab: its point moves the ring across the threshold, and the run agrees with theory.
-import { equal, holds, playTo, ready, snapshot, test, verdict } from './helpers.mjs'
+import { equal, holds, playTo, ready, snapshot, stability, test } from './helpers.mjs'
 
 const NUDGE = 'action=at%3D0%3A1%3Anudge%3D1'
 // So small that the nonlinear part stays below the accuracy that the test asks for.
@@ -18,7 +18,7 @@ async function drag(page, vehicles, delay, before = () => {}) {
   }
   const field = await page.locator('#plane canvas').boundingBox()
   const from = await middle()
-  const { verdict: now, driver } = await snapshot(page)
+  const { stability: now, driver } = await snapshot(page)
   // Where the axes begin follows from the picture's own ticks: N = 0 at the left end, Δ = 0 at the lower end.
   const left = field.x + 30
   const bottom = field.y + field.height - 36
@@ -35,7 +35,7 @@ async function drag(page, vehicles, delay, before = () => {}) {
 
 /** What the tab measures of the mode that grows fastest in theory. */
 async function lead(page) {
-  const { mode, rate } = (await snapshot(page)).verdict
+  const { mode, rate } = (await snapshot(page)).stability
   const { modes } = await page.evaluate(() => window.ringroad.client.ask('modes', {}))
   return { predicted: rate, ...modes.find(m => m.mode === mode) }
 }
@@ -48,24 +48,24 @@ for (const [state, from, to, sign] of [
     const page = await open(`index.html#reaction-time=${from}&${TOUCH}`, still)
     await ready(page)
     await diagram(page)
-    holds((await verdict(page)) !== state, `${state} before the point has moved`)
+    holds((await stability(page)) !== state, `${state} before the point has moved`)
     let held
     await drag(page, 50, to, async () => {
-      held = await verdict(page)
+      held = await stability(page)
     })
-    equal(held, state, 'verdict while the point is held')
-    equal(await verdict(page), state, 'verdict')
+    equal(held, state, 'stability while the point is held')
+    equal(await stability(page), state, 'stability')
     const { scenario, driver } = await snapshot(page)
     holds(Math.abs(driver.reaction_time - to) < 0.03, `Δ = ${driver.reaction_time}`)
     equal(scenario.vehicles, 50, 'N')
     equal(scenario.actions.join(), 'at=0:1:nudge=0.1', 'actions at t = 0')
     await playTo(page, 200)
-    equal(await verdict(page), state, 'verdict after 200 s')
+    equal(await stability(page), state, 'stability after 200 s')
     const m = await lead(page)
     equal(Math.sign(m.rate), sign, `sign of the measured growth ${m.rate}`)
     const allowed = Math.max(0.01 * Math.abs(m.predicted), 3 * m.standard_error)
     holds(Math.abs(m.rate - m.predicted) <= allowed, `measured ${m.rate} ± ${m.standard_error}, predicted ${m.predicted}`)
-    const words = await page.textContent('#verdict .measured')
+    const words = await page.textContent('#summary .measured')
     holds(words.includes(sign < 0 ? 'halves' : 'doubles'), words)
 
     // Under way a new Δ is one action, and the run goes on.
@@ -75,7 +75,7 @@ for (const [state, from, to, sign] of [
     equal(actions.length, 2, `actions ${actions}`)
     holds(/^at=[\d.]+:all:reaction-time=0\.[67]\d?$/.test(actions[1]), actions[1])
     equal(await page.evaluate(() => window.ringroad.frame.time), time, 'time')
-    holds((await verdict(page)) !== state, `${state} after the way back`)
+    holds((await stability(page)) !== state, `${state} after the way back`)
   })
 }
 
@@ -85,17 +85,17 @@ test('with two lanes the stability diagram is of the lane that the summary is ab
   await diagram(page)
   const value = () => page.getAttribute('#plane-point', 'aria-valuetext')
   equal(await value(), '25 vehicles in lane 1, reaction time 0.75 seconds: stable', 'where the lane stands')
-  const sentence = await page.textContent('#verdict .sentence')
+  const sentence = await page.textContent('#summary .sentence')
   const tolerated = sentence.match(/tolerates ([\d.]+)/)[1]
   holds((await page.textContent('#plane .keys')).includes(tolerated), `${sentence} / ${await page.textContent('#plane .keys')}`)
   let held
   await drag(page, 40, 0.9, async () => {
-    held = await verdict(page)
+    held = await stability(page)
   })
-  const { scenario, verdict: after } = await snapshot(page)
+  const { scenario, stability: after } = await snapshot(page)
   holds(Math.abs(after.vehicles - 40) <= 1 && scenario.vehicles === 2 * after.vehicles, `${after.vehicles} of ${scenario.vehicles}`)
-  equal(held, 'unstable', 'verdict while the point is held')
-  equal(await verdict(page), 'unstable', 'verdict')
+  equal(held, 'unstable', 'stability while the point is held')
+  equal(await stability(page), 'unstable', 'stability')
   holds((await value()).startsWith(`${after.vehicles} vehicles in lane 1`), await value())
   // Δ alone leaves the vehicles where they are.
   await playTo(page, 5)
@@ -246,9 +246,9 @@ test('the point moves by keyboard: Δ and N, and N starts again', async ({ open 
   for (let k = 0; k < 3; k++) {
     await page.keyboard.press('ArrowUp')
     await page.waitForTimeout(700)
-    seen[(await snapshot(page)).driver.reaction_time] = await verdict(page)
+    seen[(await snapshot(page)).driver.reaction_time] = await stability(page)
   }
-  equal(JSON.stringify(seen), JSON.stringify({ 0.67: 'stable', 0.68: 'unstable', 0.69: 'unstable' }), 'verdicts')
+  equal(JSON.stringify(seen), JSON.stringify({ 0.67: 'stable', 0.68: 'unstable', 0.69: 'unstable' }), 'stability')
   equal(await page.getAttribute('#plane-point', 'aria-valuetext'), '50 vehicles, reaction time 0.69 seconds: unstable', 'value in words')
   // Fewer vehicles tolerate more.
   for (let k = 0; k < 8; k++) await page.keyboard.press('ArrowLeft')
@@ -257,7 +257,7 @@ test('the point moves by keyboard: Δ and N, and N starts again', async ({ open 
   equal(scenario.vehicles, 42, 'N')
   equal(scenario.driver.reaction_time, 0.69, 'Δ of the new run')
   equal(scenario.actions.join(), 'at=0:1:nudge=1', 'actions of the new run')
-  equal(await verdict(page), 'stable', 'verdict with fewer vehicles')
+  equal(await stability(page), 'stable', 'stability with fewer vehicles')
   equal(await page.inputValue('#p-vehicles-number'), '42', 'the number beside the slider')
 })
 

@@ -2,11 +2,11 @@
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
-import { csv, equal, hash, holds, playTo, ready, ringroad, rows, snapshot, test, verdict } from './helpers.mjs'
+import { csv, equal, hash, holds, playTo, ready, ringroad, rows, snapshot, stability, test } from './helpers.mjs'
 
 const NUDGE = 'action=at%3D0%3A1%3Anudge%3D1'
 
-test('the verdict turns as Δ passes the threshold by keyboard', async ({ open }) => {
+test('the stability summary turns as Δ passes the threshold by keyboard', async ({ open }) => {
   const page = await open(`index.html#reaction-time=0.65&${NUDGE}`, { reducedMotion: 'reduce' })
   await ready(page)
   await page.focus('#p-reaction_time')
@@ -15,10 +15,10 @@ test('the verdict turns as Δ passes the threshold by keyboard', async ({ open }
     // What the slider would do is said while it moves, and holds once it is let go.
     await page.keyboard.press('ArrowRight')
     await page.waitForTimeout(700)
-    seen[await page.inputValue('#p-reaction_time')] = await verdict(page)
+    seen[await page.inputValue('#p-reaction_time')] = await stability(page)
   }
-  equal(JSON.stringify(seen), JSON.stringify({ 0.66: 'stable', 0.67: 'stable', 0.68: 'unstable', 0.69: 'unstable', 0.7: 'unstable' }), 'verdicts')
-  const text = await page.textContent('#verdict')
+  equal(JSON.stringify(seen), JSON.stringify({ 0.66: 'stable', 0.67: 'stable', 0.68: 'unstable', 0.69: 'unstable', 0.7: 'unstable' }), 'stability')
+  const text = await page.textContent('#summary')
   holds(text.includes('0.679') && text.includes('0.684'), `both thresholds: ${text}`)
 })
 
@@ -26,16 +26,16 @@ for (const [delta, state] of [
   [0.6, 'stable'],
   [0.75, 'unstable'],
 ]) {
-  test(`growth measured over 200 s agrees with the verdict at Δ = ${delta} s`, async ({ open }) => {
+  test(`growth measured over 200 s agrees with the stability summary at Δ = ${delta} s`, async ({ open }) => {
     const page = await open(`index.html#reaction-time=${delta}&${NUDGE}`)
     await ready(page)
     await playTo(page, 200)
-    equal(await verdict(page), state, 'verdict')
+    equal(await stability(page), state, 'stability')
     const growth = await page.evaluate(() => window.ringroad.frame.growth)
-    const rate = (await snapshot(page)).verdict.rate
+    const rate = (await snapshot(page)).stability.rate
     equal(Math.sign(growth.rate), state === 'stable' ? -1 : 1, `sign of the measured growth ${growth.rate}`)
     holds(Math.abs(growth.rate - rate) < 0.1 * Math.abs(rate), `measured ${growth.rate}, predicted ${rate}`)
-    const words = await page.textContent('#verdict .measured')
+    const words = await page.textContent('#summary .measured')
     holds(words.includes(state === 'stable' ? 'halves' : 'doubles'), words)
   })
 }
@@ -153,7 +153,7 @@ test('a crash is shown, marked, and can be left', async ({ open }) => {
   await playTo(page, 600)
   const { collision } = await page.evaluate(() => ({ collision: window.ringroad.frame.collision }))
   holds(collision && collision.ahead !== collision.behind, 'no crash at Δ = 1.2 s')
-  holds((await page.textContent('#verdict')).includes('Crash at t ='), 'the crash is not told')
+  holds((await page.textContent('#summary')).includes('Crash at t ='), 'the crash is not told')
   await page.evaluate(() => window.ringroad.seek(5))
   equal(await page.evaluate(() => window.ringroad.frame.finished), false, 'finished after going back')
 })

@@ -43,7 +43,7 @@ test('the page takes the entries that it reads out of a link', () => {
   expect(readHash('#view=elsewhere').scenario).toBe('view=elsewhere')
 })
 
-const verdict: StabilitySummary = {
+const summary: StabilitySummary = {
   stable: false,
   homogeneous: true,
   reaction_time: 0.75,
@@ -61,11 +61,11 @@ const verdict: StabilitySummary = {
 const plain = (s: string) => s.replaceAll('\u202f', ' ')
 
 test('the stability summary is a sentence with both critical reaction times', () => {
-  expect(plain(en.summary.critical(verdict))).toBe('Drivers react after 0.75 s; this ring tolerates 0.679 s (τ = 0.684 s).')
-  expect(plain(en.summary.wave(verdict))).toBe('Its fastest wave, 8 jams, doubles every 43 s.')
-  expect(plain(en.summary.wave({ ...verdict, stable: true, rate: -Math.LN2 / 20, mode: 1 }))).toContain('1 jam, halves every 20 s')
-  expect(en.summary.critical({ ...verdict, stable: null })).toContain('No wave')
-  expect(plain(en.summary.critical({ ...verdict, critical_discrete: 0 }))).toContain('no delay')
+  expect(plain(en.summary.critical(summary))).toBe('Drivers react after 0.75 s; this ring tolerates 0.679 s (τ = 0.684 s).')
+  expect(plain(en.summary.wave(summary))).toBe('Its fastest wave, 8 jams, doubles every 43 s.')
+  expect(plain(en.summary.wave({ ...summary, stable: true, rate: -Math.LN2 / 20, mode: 1 }))).toContain('1 jam, halves every 20 s')
+  expect(en.summary.critical({ ...summary, stable: null })).toContain('No wave')
+  expect(plain(en.summary.critical({ ...summary, critical_discrete: 0 }))).toContain('no delay')
 })
 
 test('the measured growth states its window and its uncertainty', () => {

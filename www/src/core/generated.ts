@@ -195,7 +195,7 @@ driver: Record<string, number>,
 /**
  * What theory says of the ring as it is now.
  */
-verdict: StabilitySummary, 
+stability: StabilitySummary, 
 /**
  * Numbers (from 1) of the vehicles whose speeds are in the rows.
  */
@@ -217,7 +217,7 @@ flow_window: number,
  */
 mean_equilibrium_speed: number, 
 /**
- * Counts what changed the verdict or the drivers; differs from a frame's when this snapshot is out of date.
+ * Counts what changed the stability summary or the drivers; differs from a frame's when this snapshot is out of date.
  */
 changes: number, };
 

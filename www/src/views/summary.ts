@@ -12,7 +12,7 @@ export function summaryView(session: Session): { element: HTMLElement; preview: 
   const sentence = el('span', { class: 'sentence' })
   const measured = el('span', { class: 'measured' })
   const more = button({ hidden: true, onclick: () => void session.extend() }, t.goOn)
-  const element = el('div', { id: 'verdict', class: 'message' }, mark, el('div', {}, sentence, measured), more)
+  const element = el('div', { id: 'summary', class: 'message' }, mark, el('div', {}, sentence, measured), more)
   let preview: StabilitySummary | null = null
 
   const put = (node: HTMLElement, value: string) => {
@@ -21,7 +21,7 @@ export function summaryView(session: Session): { element: HTMLElement; preview: 
   const show = () => {
     const { snapshot, frame } = session
     const crash = frame?.collision ?? null
-    const v = preview ?? snapshot.verdict
+    const v = preview ?? snapshot.stability
     const state = v.stable === null ? 'open' : v.stable ? 'stable' : 'unstable'
     element.dataset.state = state
     put(mark, `${state === 'unstable' ? '▲' : state === 'stable' ? '●' : '–'} ${t[state]}`)

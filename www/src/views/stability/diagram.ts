@@ -59,16 +59,16 @@ function elements(changed: () => void) {
 }
 
 /** Number of the lane, from 1, where there are several. */
-const laneOf = ({ scenario, verdict }: Snapshot) => (scenario.lanes > 1 ? verdict.lane : null)
+const laneOf = ({ scenario, stability }: Snapshot) => (scenario.lanes > 1 ? stability.lane : null)
 const oneLaneStart = ({ scenario }: Snapshot) => scenario.start.startsWith('one-lane')
 const stateOf = ({ stable }: StabilitySummary) => (stable === null ? '' : stable ? t.stable : t.unstable)
 
 /** A sentence where drivers differ, else empty. */
-const differOf = ({ verdict }: Snapshot) => (verdict.homogeneous ? '' : ` ${t.alike}`)
+const differOf = ({ stability }: Snapshot) => (stability.homogeneous ? '' : ` ${t.alike}`)
 
 function entitle(title: HTMLElement, handle: HTMLElement, snapshot: Snapshot): void {
   const lane = laneOf(snapshot)
-  title.textContent = snapshot.verdict.homogeneous ? t.title : t.titleAlike
+  title.textContent = snapshot.stability.homogeneous ? t.title : t.titleAlike
   title.title = handle.title = (lane === null ? t.hint : t.hintLanes(lane, !oneLaneStart(snapshot))) + differOf(snapshot)
 }
 
@@ -107,7 +107,7 @@ export function diagramView(session: Session, preview: (summary: StabilitySummar
   const reactionTime = session.start.parameters.find(p => p.name === 'reaction_time')!
   const show = () => {
     if (!session.snapshot) return
-    if (!point.held()) state = stateOf(session.snapshot.verdict)
+    if (!point.held()) state = stateOf(session.snapshot.stability)
     draw()
     void request()
   }
@@ -124,10 +124,10 @@ export function diagramView(session: Session, preview: (summary: StabilitySummar
   /** Whether in the run's time steps, or in continuous time. */
   const inSteps = () => shading.value !== 'continuous'
   const now = (): Point => {
-    const { scenario, verdict } = session.snapshot
+    const { scenario, stability } = session.snapshot
     // Where drivers are overridden, the lane may hold such drivers alone.
     const own = scenario.exceptions.length > 0 && data
-    return { vehicles: verdict.vehicles, delay: own ? own.reaction_time : valueOf(session, reactionTime) }
+    return { vehicles: stability.vehicles, delay: own ? own.reaction_time : valueOf(session, reactionTime) }
   }
   const shown = () => point.held() ?? now()
   const present = (): Layout => layout(frame(canvas.clientWidth, canvas.clientHeight, 30), endsOf(data, now().delay))

@@ -23,20 +23,20 @@ export function stabilityView(session: Session, preview: (summary: StabilitySumm
   let theory: LaneRoots | null = null
   let measured: ModalGrowth | null = null
   const showModes = () => {
-    if (theory && measured && session.frame) modes.show(theory, measured, session.snapshot.verdict.mode, session.frame.time, session.snapshot.scenario.lanes)
+    if (theory && measured && session.frame) modes.show(theory, measured, session.snapshot.stability.mode, session.frame.time, session.snapshot.scenario.lanes)
   }
   // The core computes theory only while the tab is visible, and only when something has changed on which it depends.
   const update = async () => {
     if (!session.snapshot || !visible()) return
-    const { scenario, driver, verdict, changes } = session.snapshot
+    const { scenario, driver, stability, changes } = session.snapshot
     const { length, lanes, time_step, start, vehicles, exceptions } = scenario
     const road = [length, lanes, time_step, start, vehicles, driver]
-    const curves = JSON.stringify([road, exceptions, verdict.lane, verdict.vehicles, verdict.homogeneous])
+    const curves = JSON.stringify([road, exceptions, stability.lane, stability.vehicles, stability.homogeneous])
     if (curves !== curvesOf) {
       curvesOf = curves
       diagram.of(await session.client.ask('diagram', {}))
     }
-    const lane = JSON.stringify([road, exceptions, verdict, changes])
+    const lane = JSON.stringify([road, exceptions, stability, changes])
     if (lane !== rootsOf) {
       rootsOf = lane
       theory = await session.client.ask('roots', {})
