@@ -51,18 +51,18 @@
 //! |---|---|
 //! | Which parameters are there, with which ranges? | the table in [`scenario::parameters`] |
 //! | Where is an input checked and refused? | `scenario/validation.rs`; what a refusal says: [`error`] |
-//! | Where is the law of speed against headway? | [`scenario::driver`]; vectorized for a step: [`simulation::car_following`] |
-//! | Where is the delay applied? | [`simulation::delays`] holds the delay in force of every driver, [`simulation::history`] gives the displacements of so many steps ago, [`simulation::car_following`] turns them into speeds |
-//! | Where is a lane change decided? | frustration: [`simulation::frustration`]; whether it leads to an attempt: [`simulation::attempt_sampler`]; whether the attempt succeeds: the lane-changing stage of a step in [`simulation`], with the order in [`simulation::lane_order`] |
-//! | Where is a collision found? | stage 2 of a step, in [`simulation`] |
+//! | Where is the law of speed against headway? | [`scenario::driver`]; vectorized for a step: `simulation/car_following.rs` |
+//! | Where is the delay applied? | `simulation/delays.rs` holds the delay in force of every driver, `simulation/history.rs` gives the displacements of so many steps ago, `simulation/perception.rs` and `simulation/car_following.rs` turn them into perceived headways and speeds |
+//! | Where is a lane change decided? | frustration: [`simulation::frustration`]; whether it leads to an attempt: [`simulation::attempt_sampler`]; whether the attempt succeeds: `simulation/lane_changing.rs`, with the order of the vehicles in `simulation/lane_order.rs` |
+//! | Where is a collision found? | `simulation/collision.rs` |
 //! | Where do random numbers come from? | [`numerics::random`], one stream for each use |
-//! | Where would a new probe go? | a file in [`measurement`] that implements [`measurement::Probe`], and a variant of [`Measurement`] in [`measurement::settings`] |
-//! | What turns a table into CSV? | [`format::table`]; the header lines above it: [`measurement::provenance`] |
+//! | Where would a new probe go? | a file in [`measurement`] that implements [`measurement::Probe`], and a variant of [`Measurement`] in `measurement/definition.rs` |
+//! | What turns a table into CSV? | [`format::table`]; the header lines above it: `measurement/header.rs` and [`measurement::provenance`] |
 //! | Where is a scenario read from JSON, a link, a preset? | `scenario/json.rs`, [`scenario::link`], [`scenario::presets`] |
 //! | Where is the critical reaction time computed? | homogeneous drivers: [`stability::homogeneous`]; heterogeneous ones: [`stability::heterogeneous`] |
 //! | What says "stable" or "unstable" on the page? | [`stability::summary`]; in the command: [`stability::report`] |
 //! | Where are parameters varied over a grid? | the values: [`scenario::parameter_values`]; the runs: [`batch`]; theory only: [`stability::sweep`] |
-//! | Where is the colour of the map made? | [`plot::colour`]; `web` paints the map with it |
+//! | Where is the colour of the map made? | [`plot::colour`]; `web/map_painter.rs` paints the map with it |
 //! | What does the page ask when the slider of Δ is dragged? | `preview` of `web`'s laboratory, which asks [`live::Live::preview`]: the stability summary of the changed scenario, without a run. When the slider is let go, [`live::Live::set`] appends an action |
 //! | Where is a figure of the paper computed? | a file of its own in [`reproduction`] |
 //!

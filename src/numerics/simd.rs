@@ -1,6 +1,6 @@
 //! Vectors as wide as the machine has them, chosen at run time. This is the only file with `unsafe` code.
 //!
-//! A *kernel* is a loop over chunks of [`CHUNK`] numbers. `kernel!` compiles it once for each width that the
+//! A *kernel* is a loop over chunks of `CHUNK` numbers. `kernel!` compiles it once for each width that the
 //! target knows. On x86-64 the compiler turns the chunks' arrays into vectors of that width; in WebAssembly, where
 //! the page's code is built for size, they are vectors of 128 bits by name. All versions do the same operations on
 //! each number, each rounding once, so that results do not depend on the width; a test compares them.
