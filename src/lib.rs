@@ -52,7 +52,7 @@
 //! | Which parameters are there, with which ranges? | the table in [`scenario::parameters`] |
 //! | Where is an input checked and refused? | `scenario/validation.rs`; what a refusal says: [`error`] |
 //! | Where is the law of speed against headway? | [`scenario::driver`]; vectorized for a step: `simulation/car_following.rs` |
-//! | Where is the delay applied? | `simulation/delays.rs` holds the delay in force of every driver, `simulation/history.rs` gives the displacements of so many steps ago, `simulation/perception.rs` and `simulation/car_following.rs` turn them into perceived headways and speeds |
+//! | Where is the delay applied? | `simulation/delays.rs` holds the delay in force of every driver, `simulation/history.rs` gives the displacements of so many steps ago, `simulation/perception.rs`, `simulation/step.rs` (one lane, all at once) and `simulation/car_following.rs` turn them into perceived headways and speeds, `simulation/lane_changing.rs` compares lanes by them |
 //! | Where is a lane change decided? | frustration: [`simulation::frustration`]; whether it leads to an attempt: [`simulation::attempt_sampler`]; whether the attempt succeeds: `simulation/lane_changing.rs`, with the order of the vehicles in `simulation/lane_order.rs` |
 //! | Where is a collision found? | `simulation/collision.rs` |
 //! | Where do random numbers come from? | [`numerics::random`], one stream for each use |
@@ -62,8 +62,8 @@
 //! | Where is the critical reaction time computed? | homogeneous drivers: [`stability::homogeneous`]; heterogeneous ones: [`stability::heterogeneous`] |
 //! | What says "stable" or "unstable" on the page? | [`stability::summary`]; in the command: [`stability::report`] |
 //! | Where are parameters varied over a grid? | the values: [`scenario::parameter_values`]; the runs: [`batch`]; theory only: [`stability::sweep`] |
-//! | Where is the colour of the map made? | [`plot::colour`]; `web/map_painter.rs` paints the map with it |
-//! | What does the page ask when the slider of Δ is dragged? | `preview` of `web`'s laboratory, which asks [`live::Live::preview`]: the stability summary of the changed scenario, without a run. When the slider is let go, [`live::Live::set`] appends an action |
+//! | Where is the colour of the map made? | [`plot::colour`]; `web/map_painter.rs` paints the space-time map with it; of growth rates: `www/src/views/stability/growth_map.ts` |
+//! | What does the page ask when the slider of Δ is dragged? | `preview` of `web`'s laboratory, which asks [`live::Live::preview`]: the stability summary of the changed scenario, without a run. When the slider is let go, [`live::Live::set`] appends an action; at t = 0 and after a collision it starts the run again |
 //! | Where is a figure of the paper computed? | a file of its own in [`reproduction`] |
 //!
 //! # Glossary

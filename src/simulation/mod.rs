@@ -29,8 +29,8 @@
 //!    speeds are found from the headways perceived there (`perception`, `car_following`): between two steps everything can
 //!    be read as it is at time t = i·dt.
 //!
-//! `step` has this sequence and `state` what is kept between two steps. The delay is applied in `perception`, with the
-//! delays in force from `delays` and the positions of the past from `history`. `lane_order` knows the vehicles ahead in
+//! `step` has this sequence and `state` what is kept between two steps. The delay is applied in `perception`; where
+//! positions and speeds are found in one go, in `step`; and for the comparison of lanes in `lane_changing`: with the delays in force from `delays` and the positions of the past from `history`. `lane_order` knows the vehicles ahead in
 //! each lane and in the adjacent ones; `pass_detection` finds the vehicles for which that may have changed.
 //!
 //! # Choices

@@ -47,7 +47,7 @@ impl Lab {
         diagram.growth_rates(vehicles, delays, diagram.time(in_steps))
     }
 
-    /// The characteristic roots of that lane: `Roots` as JSON.
+    /// The characteristic roots of that lane: `LaneRoots` as JSON.
     pub fn roots(&mut self) -> String {
         json::text(&self.live.roots(1, MODES))
     }
