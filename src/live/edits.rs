@@ -54,9 +54,12 @@ impl Live {
         }
         scenario.overrides.retain(|e| !e.values.is_empty());
         let is_set = |e: &Effect| matches!(e, Effect::Set(..));
-        let steps = |a: &Action| (a.at / scenario.time_step).round() as u64;
+        let step_of: Vec<u64> = scenario.actions.iter().map(|a| scenario.steps(a.at)).collect();
         let is_settled = |a: &Action| a.vehicles == VehicleSelector::All && a.effects.iter().all(is_set);
-        scenario.actions.retain(|a| steps(a) > now || steps(a) == 0 && !is_settled(a));
+        let mut step_of = step_of.into_iter();
+        scenario
+            .actions
+            .retain(|a| step_of.next().is_some_and(|step| step > now || step == 0 && !is_settled(a)));
         scenario
     }
 

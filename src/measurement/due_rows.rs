@@ -9,7 +9,7 @@ use crate::simulation::Simulation;
 
 /// The rows of all due states so far.
 #[derive(Clone, Debug)]
-pub(super) struct DueRows<R> {
+pub(crate) struct DueRows<R> {
     every: u64,
     at_collision: bool,
     /// Step of the last due state.
@@ -23,18 +23,18 @@ pub(super) struct DueRows<R> {
 
 impl<R> DueRows<R> {
     /// A state is due every so many steps.
-    pub(super) fn every(every: u64) -> Self {
+    pub(crate) fn every(every: u64) -> Self {
         Self { every, at_collision: false, last: None, start: 0, times: Vec::new(), rows: Vec::new() }
     }
 
     /// A state is due every so many steps, and at a collision.
-    pub(super) fn with_collision(every: u64) -> Self {
+    pub(crate) fn with_collision(every: u64) -> Self {
         Self { at_collision: true, ..Self::every(every) }
     }
 
     /// Whether the state is due: `None` if not. If it is, the rows that come now ([`Self::push`], [`Self::extend`])
     /// are those of its time, and the rows that an earlier look at the same time gave are taken out and returned.
-    pub(super) fn begin(&mut self, simulation: &Simulation) -> Option<Vec<R>> {
+    pub(crate) fn begin(&mut self, simulation: &Simulation) -> Option<Vec<R>> {
         let step = simulation.step_index();
         if step % self.every != 0 && !(self.at_collision && simulation.collision().is_some()) {
             return None;
@@ -48,56 +48,56 @@ impl<R> DueRows<R> {
     }
 
     /// Adds a row of the state that has begun.
-    pub(super) fn push(&mut self, row: R) {
+    pub(crate) fn push(&mut self, row: R) {
         self.rows.push(row);
     }
 
     /// Adds rows of the state that has begun.
-    pub(super) fn extend(&mut self, rows: impl IntoIterator<Item = R>) {
+    pub(crate) fn extend(&mut self, rows: impl IntoIterator<Item = R>) {
         self.rows.extend(rows);
     }
 
     /// If the state is due, adds its only row.
-    pub(super) fn record(&mut self, simulation: &Simulation, row: impl FnOnce() -> R) {
+    pub(crate) fn record(&mut self, simulation: &Simulation, row: impl FnOnce() -> R) {
         if self.begin(simulation).is_some() {
             self.push(row());
         }
     }
 
     /// Times of the due states, s.
-    pub(super) fn times(&self) -> &[f64] {
+    pub(crate) fn times(&self) -> &[f64] {
         &self.times
     }
 
     /// All rows, in order of time.
-    pub(super) fn rows(&self) -> &[R] {
+    pub(crate) fn rows(&self) -> &[R] {
         &self.rows
     }
 
     /// How many rows each due state has, where all have the same number; 0 before the first.
-    pub(super) fn per_time(&self) -> usize {
+    pub(crate) fn per_time(&self) -> usize {
         self.rows.len().checked_div(self.times.len()).unwrap_or(0)
     }
 
     /// Time of every row, s, where all due states have the same number of rows.
-    pub(super) fn time_of_rows(&self) -> Vec<f64> {
+    pub(crate) fn time_of_rows(&self) -> Vec<f64> {
         self.times.iter().flat_map(|&time| std::iter::repeat_n(time, self.per_time())).collect()
     }
 
     /// The column `time_s`, a value for each row.
-    pub(super) fn time_column(&self) -> Column {
+    pub(crate) fn time_column(&self) -> Column {
         Column::float("time_s", "s", "time", self.time_of_rows())
     }
 
     /// A value from each row.
-    pub(super) fn each<T>(&self, value: fn(&R) -> T) -> Vec<T> {
+    pub(crate) fn each<T>(&self, value: fn(&R) -> T) -> Vec<T> {
         self.rows.iter().map(value).collect()
     }
 }
 
 impl<T: Copy> DueRows<T> {
     /// The k-th of the `width` values that each due state gave.
-    pub(super) fn nth_of_each(&self, k: usize, width: usize) -> Vec<T> {
+    pub(crate) fn nth_of_each(&self, k: usize, width: usize) -> Vec<T> {
         self.rows.iter().skip(k).step_by(width).copied().collect()
     }
 }

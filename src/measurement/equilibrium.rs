@@ -9,6 +9,7 @@ use super::probe::Probe;
 use crate::format::table::{Column, Table};
 use crate::scenario::driver::{Capacity, Driver, equilibrium};
 use crate::simulation::Simulation;
+use crate::stability::driver_classes::DriverClasses;
 
 /// Values of one lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,13 +53,7 @@ fn values(drivers: &[Driver], length: f64) -> Row {
         };
     };
     let equal = drivers.iter().all(|d| d.law() == drivers[0].law());
-    let slope = if equal {
-        drivers[0].slope(length / n as f64)
-    } else if lane.speed == 0.0 {
-        0.0
-    } else {
-        n as f64 / drivers.iter().map(|d| 1.0 / d.slope(d.headway(lane.speed))).sum::<f64>()
-    };
+    let slope = DriverClasses::of(drivers, drivers.iter().map(|d| d.reaction_time), length).mean_slope();
     let top = if equal { drivers[0].capacity() } else { capacity(drivers) };
     Row { vehicles: n, speed: lane.speed, density: lane.density, flow: lane.flow, slope, top }
 }

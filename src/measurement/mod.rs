@@ -72,7 +72,7 @@
 mod cyclic_growth;
 mod definition;
 mod driver_groups;
-mod due_rows;
+pub(crate) mod due_rows;
 mod equilibrium;
 mod events;
 mod flow;

@@ -5,6 +5,7 @@ use super::figure::{Figure, FigureTable, Outcome};
 use super::shared::{Spread, indicator, observed};
 use super::task::{Size, TaskResult};
 use crate::format::table::{Column, Table};
+use crate::measurement::due_rows::DueRows;
 use crate::measurement::probe::Probe;
 use crate::numerics::statistics::mean;
 use crate::plot::{Axis, Layer, Panel, Plot};
@@ -63,11 +64,6 @@ fn scenario(size: Size, aggressive: bool, seed: u64) -> Scenario {
 /// What the figure and its claims need of a run.
 #[derive(Clone, Debug, Default)]
 struct Log {
-    /// Times of the rows, s.
-    times: Vec<f64>,
-    /// Lane changes and distances (m) of the vehicles [`FOLLOWED`], row by row.
-    changes: [Vec<f64>; 3],
-    distances: [Vec<f64>; 3],
     /// Mean speed of the drivers with λ = 1 in each lane, summed over the states before the first lane change, m/s.
     lane_speed: [f64; 2],
     /// Number of these states.
@@ -89,8 +85,8 @@ struct Log {
 /// The probe that fills the log.
 struct Follow {
     log: Log,
-    /// Steps between two rows.
-    every: u64,
+    /// Lane changes and distances (m) of the vehicles [`FOLLOWED`].
+    rows: DueRows<[(f64, f64); 3]>,
     lane_changes: u64,
 }
 
@@ -134,13 +130,9 @@ impl Probe for Follow {
         }
         log.headways = (0..n).map(|j| simulation.headway(j)).collect();
         log.frustration = (0..n).map(|j| simulation.frustration(j)).collect();
-        if simulation.step_index().is_multiple_of(self.every) {
-            log.times.push(simulation.time());
-            for (k, &j) in FOLLOWED.iter().enumerate() {
-                log.changes[k].push(f64::from(simulation.lane_changes(j)));
-                log.distances[k].push(simulation.distance(j));
-            }
-        }
+        self.rows.record(simulation, || {
+            FOLLOWED.map(|j| (f64::from(simulation.lane_changes(j)), simulation.distance(j)))
+        });
         if simulation.is_finished() {
             log.last_changes = (0..n).map(|j| f64::from(simulation.lane_changes(j))).collect();
             log.last_distances = (0..n).map(|j| simulation.distance(j)).collect();
@@ -148,10 +140,9 @@ impl Probe for Follow {
     }
 
     fn table(&self) -> Table {
-        let log = &self.log;
-        let mut columns = vec![Column::float("time_s", "s", "time", log.times.clone())];
+        let mut columns = vec![self.rows.time_column()];
         for (k, j) in FOLLOWED.iter().map(|j| j + 1).enumerate() {
-            let (changes, distance) = (log.changes[k].clone(), log.distances[k].clone());
+            let (changes, distance) = self.rows.rows().iter().map(|row| row[k]).unzip();
             columns.push(Column::float(
                 format!("lane_changes_{j}"),
                 "",
@@ -173,13 +164,17 @@ impl Probe for Follow {
 fn run(size: Size, task: usize) -> TaskResult {
     let aggressive = task < runs(size);
     let scenario = scenario(size, aggressive, if aggressive { task as u64 + 1 } else { 1 });
-    let mut follow = Follow { log: Log::default(), every: scenario.steps(EVERY), lane_changes: 0 };
+    let mut follow =
+        Follow { log: Log::default(), rows: DueRows::every(scenario.steps(EVERY)), lane_changes: 0 };
     let simulation = observed(&scenario, &mut follow);
-    let log = follow.log;
+    let (log, rows) = (follow.log, follow.rows);
     let rise = log.first_rise.unwrap_or((f64::NAN, false, f64::NAN));
-    let mut columns = vec![log.times.clone()];
-    columns.extend(log.changes.iter().cloned());
-    columns.extend(log.distances.iter().cloned());
+    let of_each = |value: fn((f64, f64)) -> f64| {
+        [0, 1, 2].map(|k| rows.rows().iter().map(|row| value(row[k])).collect::<Vec<f64>>())
+    };
+    let mut columns = vec![rows.times().to_vec()];
+    columns.extend(of_each(|(changes, _)| changes));
+    columns.extend(of_each(|(_, distance)| distance));
     columns.push(vec![
         (log.lane_speed[0] - log.lane_speed[1]) / log.states,
         log.enlarged,

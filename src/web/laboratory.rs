@@ -4,7 +4,6 @@
 
 use super::map_painter::{MapPainter, MapSettings};
 use super::refusal;
-use crate::error::{Error, quoted};
 use crate::format::json;
 use crate::live::{BINS, COLUMNS, Live, opening};
 use crate::measurement::provenance::{VERSION, scenario_of_file};
@@ -84,10 +83,7 @@ impl Lab {
 
     /// Opens a preset with the end of the run put off as far as in a link without an end.
     pub fn open_preset(&mut self, name: &str) -> Result<String, JsError> {
-        let found = presets::presets().into_iter().find(|p| p.name == name);
-        let mut scenario = found
-            .ok_or_else(|| refusal(Error::unknown("preset", quoted(name), "a name of the list")))?
-            .scenario;
+        let mut scenario = presets::preset(name).map_err(refusal)?.scenario;
         scenario.until = link::base().until;
         self.open(&scenario)?;
         Ok("[]".into())
