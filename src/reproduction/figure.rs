@@ -1,4 +1,14 @@
 //! A figure: its tasks, and the tables, the picture and the claims that come from their results.
+//!
+//! ```
+//! use ringroad::reproduction::{Figure, Size};
+//!
+//! // The tasks of a figure can be done in any order and place; their results make the figure.
+//! let figure = Figure::named("fundamental-diagram")?;
+//! let results: Vec<_> = (0..figure.tasks(Size::Small).len()).map(|k| figure.run(Size::Small, k)).collect();
+//! assert!(!figure.assemble(Size::Small, &results)?.claims.is_empty());
+//! # Ok::<(), ringroad::Error>(())
+//! ```
 
 use super::claim::Claim;
 use super::task::{Size, Task, TaskResult, run_all};
