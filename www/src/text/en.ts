@@ -1,6 +1,6 @@
 // Every text of the page, in English; a second language is a second object of this type. The core's refusals are shown in the
 // core's own words.
-import { exactly, fixed, span, unit } from './format'
+import { exactly, fixed, span, spans, unit } from './format'
 import type { Growth, StabilitySummary, WindowEnd } from '../core/protocol'
 
 const seconds = (s: number) => unit(fixed(s, 3), 's')
@@ -17,9 +17,8 @@ function within({ rate, nonlinear_bound, standard_error }: Growth): string {
   if (error < 0.05 * Math.abs(rate)) return growth(rate)
   if (nonlinear_bound >= Math.abs(rate)) return 'waves too large to tell'
   if (error >= Math.abs(rate)) return 'not clear yet'
-  const [fast, slow] = [error, -error].map(e => span(Math.LN2 / (Math.abs(rate) + e)))
-  const [from, of] = fast!.split('\u202f')
-  return `${rate > 0 ? 'doubles' : 'halves'} every ${slow!.endsWith(of!) ? from : fast}–${slow}`
+  const [fast, slow] = [error, -error].map(e => Math.LN2 / (Math.abs(rate) + e))
+  return `${rate > 0 ? 'doubles' : 'halves'} every ${spans(fast!, slow!)}`
 }
 
 export const en = {
@@ -120,10 +119,10 @@ export const en = {
     note: { difference: 'speed against v∞, log scale', speed: 'speed' },
     canvas: 'Space-time map: position upwards, time to the right.',
     position: 'position (m)',
-    coMovingPosition: 'position, riding along (m)',
+    coMovingPosition: 'position, co-moving (m)',
     time: 'time (s)',
     lane: 'Lane',
-    coMoving: 'Ride along',
+    coMoving: 'Co-moving',
     coMovingHint: 'Move with the equilibrium speed v∞',
     reading: (t: number, x: number, v: number, d: number): string =>
       `t = ${unit(exactly(t, 1), 's')}, x = ${unit(fixed(x, 0), 'm')}: ${unit(exactly(v, 2), 'm/s')} (${d >= 0 ? '+' : ''}${exactly(d, Math.abs(d) < 0.1 ? 3 : 2)})`,
@@ -263,7 +262,7 @@ export const en = {
     kind: 'two-way slider',
     hint: 'Drag the point, or use its arrow keys: ← → vehicles, ↑ ↓ reaction time. A new N starts again.',
     hintLanes: (lane: number, each: boolean): string =>
-      `The plane is of lane ${lane}, as the verdict is. Drag the point, or use its arrow keys: ← → vehicles, ↑ ↓ reaction time. A new number starts again, with as many ${each ? 'in every lane' : 'in the one lane of the start'}.`,
+      `The diagram is of lane ${lane}, like the summary. Drag the point, or use its arrow keys: ← → vehicles, ↑ ↓ reaction time. A new number starts again, with as many ${each ? 'in every lane' : 'in the one lane of the start'}.`,
     value: (n: number, lane: number | null, delta: number, state: string): string =>
       `${n} vehicles${lane === null ? '' : ` in lane ${lane}`}, reaction time ${fixed(delta, 2)} seconds${state === '' ? '' : `: ${state}`}`,
     drag: 'drag the point',
@@ -272,11 +271,11 @@ export const en = {
     continuous: (s: number | null): string => `τ continuous: ${tau(s)}`,
     newell: (s: number | null): string => `Newell’s limit: ${tau(s)}`,
     describe: (n: number, lane: number | null, discrete: number | null, continuous: number | null, newell: number | null): string =>
-      `The plane of vehicles${lane === null ? '' : ` in lane ${lane}`} and reaction time. ${discrete === null && continuous === null ? `With ${n} vehicles nothing moves: a jam.` : `With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`}`,
+      `The diagram of vehicles${lane === null ? '' : ` in lane ${lane}`} and reaction time. ${discrete === null && continuous === null ? `With ${n} vehicles nothing moves: a jam.` : `With ${n} vehicles the curve stands at ${tau(discrete)} in the run’s steps, in continuous time at ${tau(continuous)}, Newell’s limit at ${tau(newell)}; above the curve waves grow.`}`,
     /** For heterogeneous drivers. */
-    titleAlike: 'If drivers were alike',
-    alike: 'The drivers of this ring differ. The plane is for drivers alike: those without an exception.',
-    shading: 'What the plane shows',
+    titleAlike: 'If all drivers were equal',
+    alike: 'The drivers of this ring differ. The diagram is for equal drivers: those without values of their own.',
+    shading: 'What the diagram shows',
     shadings: { regions: 'regions', steps: 'in steps', continuous: 'continuous' },
     rates: 'growth rate',
     every: 'modes',

@@ -61,7 +61,8 @@ function elements(changed: () => void) {
 /** Number of the lane, from 1, where there are several. */
 const laneOf = ({ scenario, stability }: Snapshot) => (scenario.lanes > 1 ? stability.lane : null)
 const oneLaneStart = ({ scenario }: Snapshot) => scenario.start.startsWith('one-lane')
-const stateOf = ({ stable }: StabilitySummary) => (stable === null ? '' : stable ? t.stable : t.unstable)
+type State = '' | 'stable' | 'unstable'
+const stateOf = ({ stable }: StabilitySummary): State => (stable === null ? '' : stable ? 'stable' : 'unstable')
 
 /** A sentence where drivers differ, else empty. */
 const differOf = ({ stability }: Snapshot) => (stability.homogeneous ? '' : ` ${t.alike}`)
@@ -93,12 +94,12 @@ function described({ vehicles: numbers, discrete_s, continuous_s, newell_s }: Cu
   }
 }
 
-function placeHandle(handle: HTMLElement, { x, y, ends }: Layout, { vehicles, delay }: Point, lane: number | null, state: string): void {
+function placeHandle(handle: HTMLElement, { x, y, ends }: Layout, { vehicles, delay }: Point, lane: number | null, state: State): void {
   handle.style.left = `${x(Math.min(vehicles, ends.vehicles))}px`
   handle.style.top = `${y(delay)}px`
   handle.setAttribute('aria-valuemax', String(ends.delay))
   handle.setAttribute('aria-valuenow', String(delay))
-  handle.setAttribute('aria-valuetext', t.value(vehicles, lane, delay, state))
+  handle.setAttribute('aria-valuetext', t.value(vehicles, lane, delay, state === '' ? '' : t[state]))
   handle.dataset.state = state
 }
 
@@ -117,7 +118,7 @@ export function diagramView(session: Session, preview: (summary: StabilitySummar
   let modes: Float64Array = new Float64Array()
   let modesOf = ''
   /** Stable or unstable at the point, and the whole diagram, in words. */
-  let state = ''
+  let state: State = ''
   let words = ''
 
   const regions = () => shading.value === 'regions'
