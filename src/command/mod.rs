@@ -52,7 +52,7 @@ pub(crate) enum Failure {
         /// What the system says.
         error: io::Error,
     },
-    /// The reader of our output has gone: nobody to tell.
+    /// The program that reads the standard output has closed it: no message is written.
     ReaderGone,
 }
 

@@ -87,7 +87,7 @@ pub(super) struct Recorder {
     pub(super) columns: VecDeque<Column>,
     /// Rows not yet taken, one after another: time, mean speed, flow, ΔN, speeds of the watched vehicles.
     rows: Vec<f64>,
-    /// Passings of x = L/2 since ever, at the last rows.
+    /// Number of passings of x = L/2 since t = 0, at the times of the last rows.
     passings: VecDeque<f64>,
     /// The mode whose growth is measured, and the amplitudes of its lane; none before theory was asked.
     wave: Option<(usize, Spectrum)>,

@@ -52,8 +52,18 @@ impl Probe for Events {
         Table::new(vec![
             Column::float("time_s", "s", "time", self.events.iter().map(|e| e.0).collect()),
             Column::text("event", "lane-change, refused (an attempt), pass or collision", names),
-            Column::whole("vehicle", "", "who: the changer, the passer, the one behind", vehicles),
-            Column::float("other", "", "with whom: the one passed, the one ahead", others),
+            Column::whole(
+                "vehicle",
+                "",
+                "the vehicle that changes lanes, that passes, or that is behind in the collision",
+                vehicles,
+            ),
+            Column::float(
+                "other",
+                "",
+                "the vehicle that is passed, or that is ahead in the collision",
+                others,
+            ),
             Column::float("from_lane", "", "its lane before", from),
             Column::float("to_lane", "", "the lane aimed at", to),
             Column::float("frustration", "", "frustration φ before", frustration),

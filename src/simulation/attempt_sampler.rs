@@ -29,8 +29,8 @@ pub trait Sampler: Clone {
     fn attempts(&mut self, vehicle: usize, frustration: f64) -> bool;
     /// Which of two equally good lanes: true for the outer one.
     fn coin(&mut self) -> bool;
-    /// For each vehicle (padded) an amount, and how much a unit of φ takes off it in a step: a vehicle can attempt a change
-    /// only when its amount has fallen below 0. None if this sampler works in another way.
+    /// For each vehicle (padded) what is left of its exponential clock, and by how much this falls in a step for each unit
+    /// of φ: a vehicle can attempt a change only when it has fallen below 0. None if this sampler has no clocks.
     fn clocks(&mut self) -> Option<(&mut [f64], f64)> {
         None
     }

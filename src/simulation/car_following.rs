@@ -245,7 +245,7 @@ fn deficit_in_general(
         in_full
     } else {
         let constants = Constants::new();
-        // NaN, of a vehicle without a valid deficit, is not at most anything.
+        // A comparison with NaN, the deficit of a vehicle that has no valid one yet, is false.
         let next = a2.at_most(Chunk::splat(SMALL)).choose(constants.changed(old, a, a2), in_full);
         a2.at_most(constants.tiny).choose(constants.changed_a_little(old, a, a2), next)
     };

@@ -36,7 +36,7 @@ pub fn attempt_probability_in_step(frustration: f64, time_step: f64) -> f64 {
 }
 
 /// Headways (m) that differ by no more than this count as equal. The own headway is computed from that at the start, the
-/// adjacent one from positions; without the tolerance, rounding would frustrate vehicles side by side in equal lanes.
+/// adjacent one from positions; without the tolerance, rounding errors would raise φ of vehicles side by side in equal lanes.
 pub const EQUAL: f64 = 1e-6;
 
 /// φ after rules 1 and 2: up by `change` where the adjacent headway is larger than the own one, down where it is

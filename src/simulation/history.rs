@@ -174,7 +174,7 @@ impl<'a> Past<'a> {
 }
 
 /// Rows for delays of up to `steps` steps: the present one, those before it, and one more for the step in which a
-/// longer reaction time comes into force. So the row before the present one, which passes are told by, is always there.
+/// longer reaction time comes into force. So the row before the present one, which is needed to find passes, is always there.
 fn rows_for(steps: usize) -> usize {
     steps + 2
 }

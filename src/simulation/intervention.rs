@@ -54,8 +54,8 @@ impl<S: Sampler> Simulation<S> {
         Ok(())
     }
 
-    /// Takes those actions of this step out of the scenario that the last [`Self::act`] makes undone: a replay gives the
-    /// same bits with fewer actions.
+    /// Removes from the scenario the actions of this step that the last [`Self::act`] replaces: a replay gives the same
+    /// bits with fewer actions.
     pub fn forget_replaced(&mut self) {
         let Some((last, before)) = self.scenario.actions.split_last() else { return };
         // The vehicles of a share are drawn by the action's place in the list, which must therefore stay.

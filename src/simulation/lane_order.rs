@@ -387,7 +387,7 @@ impl LaneOrder {
             about += self.headway(i, s);
             i = self.ahead(i);
         }
-        // Twice round: nudges have put the lane out of order, or a vehicle several laps ahead.
+        // Not found in two rounds: after nudges the order in the lane is not valid, or a vehicle is several laps ahead.
         self.search(j, lane, s)
     }
 

@@ -67,7 +67,7 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     pub(super) sampler: S,
     /// Passes of the present step, in order of the vehicle that was passed.
     pub(super) passes: Vec<Pass>,
-    /// Passes that became passes by a lane change of the present step.
+    /// Passes that count because of a lane change in the present step.
     pub(super) late_passes: Vec<Pass>,
     pub(super) events: Vec<Event>,
     pub(super) events_step: u64,
@@ -80,7 +80,7 @@ pub struct Simulation<S: Sampler = ExponentialClock> {
     pub(super) max_speed: f64,
     /// The length of the longest vehicle, m.
     pub(super) max_vehicle_length: f64,
-    /// Before this step vehicles are too close to one another for several steps at once.
+    /// Until this step vehicles are too close to one another for several steps at once.
     pub(super) too_dense_until: u64,
     /// As long as [`TravelBounds::apart`] is below this, no two vehicles can touch, m.
     pub(super) contact_free_until: f64,

@@ -17,7 +17,7 @@
 //! | [`stabilizing_drivers`] | how many changed drivers stabilize a ring |
 //!
 //! Two systems are treated everywhere ([`homogeneous::Time`]): the differential equation, and the difference equation that a
-//! simulation with its steps solves. Where one word must be said of a ring, stable or unstable, it is about the second.
+//! simulation with its steps solves. *Stable* and *unstable* without a further word are about the second.
 //!
 //! ```
 //! use ringroad::stability::homogeneous::{HomogeneousRing, Time};

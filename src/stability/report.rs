@@ -164,10 +164,10 @@ impl Report {
     pub fn sentence(&self) -> String {
         let n = self.vehicles;
         if n < 2 {
-            return "One vehicle alone: there is nobody to be disturbed by, so every reaction time is stable.".into();
+            return "One vehicle alone has no waves, so every reaction time is stable.".into();
         }
         if self.jammed {
-            return "A jam: nobody moves, so nothing grows, whatever the reaction time.".into();
+            return "A jam: all vehicles stand, so nothing grows, whatever the reaction time.".into();
         }
         let delay = shown(self.delay_in_force_s);
         let (whose, mean) =
