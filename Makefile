@@ -58,8 +58,8 @@ TESTS := setup format lint hashes lint-wasm documentation package rust csv types
 test: $(TESTS:%=test-%) ## run every test: core, command, CSV, WebAssembly and page
 	@echo
 	for name in $(TESTS); do \
-		grep -shE '^(test result: |Ran [0-9]|OK|FAILED)|^ *(Tests|Test Files) |^ℹ (tests|pass|fail) |\bkB\b' \
-			$(LOGS)/test-$$name.log | sed "s/^ */$$name: /" || true; \
+		sed 's/\x1b\[[0-9;]*m//g' $(LOGS)/test-$$name.log 2>/dev/null | grep -hE '^(test result: |Ran [0-9]|OK|FAILED)|^ *(Tests|Test Files) |^ℹ (tests|pass|fail) |^[0-9]+ passed|\bkB\b' \
+			| sed "s/^ */$$name: /" || true; \
 	done
 
 bench: | setup ## time the core and print ns per vehicle-update
